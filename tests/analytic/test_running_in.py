@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import hats
 import numpy as np
 import pytest
 from exact_stresses import flowed_volume, largest_overlap
@@ -11,11 +12,10 @@ from text_profiles import GROUND, read_profile
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactError, solve_contact
+from analytic.contact.problem import ContactError
 from analytic.exact.flattened_cylinder import flattened_cylinder
-from analytic.exact.hertz import hertz_from_load
+from analytic.exact.hertz import HertzContact, hertz_from_load
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
 from analytic.running_in import SMALLEST_SWEEP, RunIn, run_in
 from analytic.surface.form import trapezoid_widths
@@ -35,19 +35,12 @@ def ran_in(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how)
     return run_in(profile, RADIUS, MODULUS, constraints, positions, **how)
 
 
-def pressed(profile: Profile, position: float, pitch: float, **changes):
-    """Elastic contact (unless capped) over the whole profile: grid from the roller's centre."""
-    pair = {"radius": RADIUS, "modulus": MODULUS, "load": LOAD, "hardness": np.inf, **changes}
+def pressed(profile: Profile, position: float, pitch: float, pair: HertzContact = HERTZ):
+    """Elastic contact over the whole profile: grid from the roller's centre."""
     placed = profile.shifted(position)
     grid = HatGrid.within(placed.x[0], placed.x[-1], pitch)
-    solution = solve_contact(
-        HalfPlane(grid.count, pitch, pair["modulus"]),
-        grid.hat_integrals(roller_gap(pair["radius"], placed.spline()), placed.x),
-        grid.weights,
-        Constraints(load=pair["load"], hardness=pair["hardness"]),
-    )
-    assert solution.converged
-    return grid, solution
+    gap, load = roller_gap(pair.radius, placed.spline()), pair.load_per_length
+    return grid, hats.pressed(grid, pair.combined_modulus, gap, placed.x, load=load)
 
 
 @pytest.fixture(scope="module")
@@ -173,8 +166,8 @@ class TestRefinement:
         """Samples only go down; the spline through them swings beside a flattened crest."""
         x = np.linspace(-2.0, 2.0, 40_001) * A
         lifts = []
-        for hats in (1.0, 2.0, 4.0):
-            worn = wavy if hats == 1.0 else ran_in(pitch=WAVY.spacing / hats)
+        for narrower in (1.0, 2.0, 4.0):
+            worn = wavy if narrower == 1.0 else ran_in(pitch=WAVY.spacing / narrower)
             assert np.all(worn.lowering >= 0.0)
             rise = worn.profile.spline()(x) - WAVY.spline()(x)
             lifts.append(rise.max() / worn.largest_lowering)
@@ -341,14 +334,7 @@ class TestGroundSurface:
     def contact(self, profile: Profile, pitch: float) -> tuple[float, float]:
         """Contact ratio by touching nodes, and peak pressure over p0, at the last place."""
         pair = self.PAIR
-        grid, solution = pressed(
-            profile,
-            1118e-6,
-            pitch,
-            radius=pair.radius,
-            modulus=pair.combined_modulus,
-            load=pair.load_per_length,
-        )
+        grid, solution = pressed(profile, 1118e-6, pitch, pair)
         patches = contact_patches(grid.x, solution.pressure, solution.gap)
         ratio = np.ptp(patches, axis=1).sum() / (2.0 * pair.half_width)
         return ratio, solution.pressure.max() / pair.peak_pressure

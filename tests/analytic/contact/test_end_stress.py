@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
+from hats import pressed
 
 from analytic.contact.end_stress import REACH, end_stress
-from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
 from analytic.stress.points import stress_at
 
 HERTZ = hertz_from_load(1.0, 1.0, 4.0 / np.pi)  # a half-width of 1
@@ -17,9 +15,7 @@ P0 = HERTZ.peak_pressure
 
 def solved(elements, offset=0.0, gap=None):
     grid = HatGrid.within(-1.5 + offset, 1.5, 1.0 / elements)
-    operator = HalfPlane(grid.count, grid.pitch, HERTZ.combined_modulus)
-    weighted = grid.hat_integrals(gap or roller_gap(1.0), None)
-    return grid, solve_contact(operator, weighted, grid.weights, Constraints(load=1.0))
+    return grid, pressed(grid, HERTZ.combined_modulus, gap or roller_gap(1.0), load=1.0)
 
 
 def errors(elements, depth, friction=0.5, offset=0.0):

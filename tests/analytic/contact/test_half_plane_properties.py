@@ -52,14 +52,11 @@ class Contact:
         assert solution.converged, solution.residuals
         return solution
 
-    def at_load(self, load: float) -> "Contact":
-        return replace(self, constraints=replace(self.constraints, load=load, approach=None))
+    def under(self, **limits: float) -> "Contact":
+        return replace(self, constraints=replace(self.constraints, **limits))
 
     def at_approach(self, approach: float) -> "Contact":
-        return replace(self, constraints=replace(self.constraints, load=None, approach=approach))
-
-    def capped(self, hardness: float) -> "Contact":
-        return replace(self, constraints=replace(self.constraints, hardness=hardness))
+        return self.under(load=None, approach=approach)
 
 
 def waves(seed: int, slope: float):
@@ -96,7 +93,7 @@ def contact(seed: int, periodic: bool, hardness: bool = False) -> Contact:
     if not hardness:
         return free
     peak = free.solved().pressure.max()
-    return free.capped(max(rng.uniform(0.3, 0.9) * peak, 1.2 * load))
+    return free.under(hardness=max(rng.uniform(0.3, 0.9) * peak, 1.2 * load))
 
 
 def assert_close(values, expected, tolerance=EXACT):
@@ -156,7 +153,7 @@ class TestUnits:
     def test_gap_and_load_together(self, periodic, seed, factor):
         """Linear elasticity: heights, load and cap in proportion, pressures in proportion."""
         here = contact(seed, periodic)
-        there = replace(here, gap=factor * here.gap).at_load(factor * here.constraints.load)
+        there = replace(here, gap=factor * here.gap).under(load=factor * here.constraints.load)
         assert_close(there.solved().pressure, factor * here.solved().pressure)
 
     @given(seed=seeds, factor=factors)
@@ -219,7 +216,7 @@ class TestOrder:
         """Approach, area and every single pressure grow with the load."""
         here = contact(seed, periodic, cap)
         loads = here.constraints.load * np.array([0.1, 0.3, 0.6, 0.9, 1.0])
-        solutions = [here.at_load(load).solved() for load in loads]
+        solutions = [here.under(load=load).solved() for load in loads]
         assert np.all(np.diff([solution.approach for solution in solutions]) > 0.0)
         assert np.all(np.diff([np.count_nonzero(s.pressure) for s in solutions]) >= 0)
         steps = np.diff([solution.pressure for solution in solutions], axis=0)
@@ -278,7 +275,7 @@ class TestCap:
         """Of strips: a pressure then lowers the surface most where it acts, which hats do not."""
         here = replace(contact(seed, periodic, hardness=True), element="strip")
         hardness = here.constraints.hardness
-        capped, free = here.solved(), here.capped(np.inf).solved()
+        capped, free = here.solved(), here.under(hardness=np.inf).solved()
         assert capped.pressure.max() <= hardness
         assert capped.load == pytest.approx(here.constraints.load, rel=1e-12)
         assert np.count_nonzero(capped.pressure) >= np.count_nonzero(free.pressure)
@@ -292,7 +289,9 @@ class TestCap:
     def test_a_cap_above_the_peak_changes_nothing(self, periodic, seed, above):
         here = contact(seed, periodic)
         free = here.solved()
-        assert_close(here.capped(above * free.pressure.max()).solved().pressure, free.pressure)
+        assert_close(
+            here.under(hardness=above * free.pressure.max()).solved().pressure, free.pressure
+        )
 
     @given(seed=seeds)
     @examples(10)
@@ -300,5 +299,5 @@ class TestCap:
         here = contact(seed, periodic, hardness=True)
         hardness, mean = here.constraints.hardness, here.constraints.load
         lower = max(0.8 * hardness, 1.1 * mean)
-        approaches = [here.capped(cap).solved().approach for cap in (hardness, lower)]
+        approaches = [here.under(hardness=cap).solved().approach for cap in (hardness, lower)]
         assert approaches[1] >= approaches[0]

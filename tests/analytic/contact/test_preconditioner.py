@@ -20,24 +20,20 @@ SETS = {
     "patches": np.r_[4:11, 12:13, 20:33, 50:58],
     "every third": np.arange(1, COUNT, 3),
 }
-free_sets = pytest.mark.parametrize("nodes", SETS.values(), ids=SETS.keys())
-closings = pytest.mark.parametrize("closed", [False, True], ids=["open", "closed"])
 
 
-@free_sets
-@closings
-class TestContinuation:
-    def test_the_preconditioner_is_symmetric_positive_definite(self, nodes, closed):
-        operator = (PeriodicHalfPlane if closed else HalfPlane)(COUNT, 1.0, 1.0)
-        extension = Extension(nodes, operator.ring, closed=True)
-        product = np.stack(
-            [
-                extension.gather(operator.precondition(extension.extend(column)))
-                for column in np.eye(len(nodes))
-            ]
-        )
-        assert product == pytest.approx(product.T, abs=1e-13 * np.abs(product).max())
-        assert np.linalg.eigvalsh(product).min() > 0.0
+def preconditioner(operator, nodes: np.ndarray) -> np.ndarray:
+    """E' B E on these nodes, as a matrix."""
+    extension, columns = Extension(nodes, operator.ring, closed=True), np.eye(len(nodes))
+    return np.stack([extension.gather(operator.precondition(extension.extend(c))) for c in columns])
+
+
+@pytest.mark.parametrize("nodes", SETS.values(), ids=SETS.keys())
+@pytest.mark.parametrize("kind", [HalfPlane, PeriodicHalfPlane], ids=["open", "closed"])
+def test_the_preconditioner_is_symmetric_positive_definite(nodes, kind):
+    product = preconditioner(kind(COUNT, 1.0, 1.0), nodes)
+    assert product == pytest.approx(product.T, abs=1e-13 * np.abs(product).max())
+    assert np.linalg.eigvalsh(product).min() > 0.0
 
 
 class TestIterations:
@@ -69,10 +65,7 @@ def test_the_free_half_planes_ring_is_long_enough():
     """Closing the line for the inverse must not join what happens at its two ends."""
     operator = HalfPlane(512, 1.0, 1.0)
     inverse = np.linalg.inv(toeplitz(operator.column))
-    extension = Extension(np.arange(512), operator.ring, closed=True)
-    product = np.stack(
-        [extension.gather(operator.precondition(extension.extend(c))) for c in np.eye(512)]
-    )
+    product = preconditioner(operator, np.arange(512))
     spectrum = np.linalg.eigvals(np.linalg.solve(inverse, product)).real
     assert np.sort(spectrum)[-2] / np.sort(spectrum)[1] < 4.0
 

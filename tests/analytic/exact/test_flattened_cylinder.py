@@ -5,14 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from exact_stresses import flowed_volume, largest_overlap
+from hats import pressed
 from scipy.integrate import quad
 
-from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
 from analytic.exact.flattened_cylinder import FlattenedCylinder, flattened_cylinder
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
 
 LOAD, RADIUS, MODULUS = 1e6, 8e-3, 115e9
 HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
@@ -91,13 +89,7 @@ def solver_errors(cylinder: FlattenedCylinder, count: float) -> tuple[float, flo
     """Relative errors of the volume of the overlap and of the pressure (L2); hats in b."""
     pitch, reach = cylinder.contact / count, 1.5 * cylinder.contact
     grid = HatGrid.within(-reach, reach, pitch)
-    solution = solve_contact(
-        HalfPlane(grid.count, pitch, MODULUS),
-        grid.hat_integrals(roller_gap(RADIUS)),
-        grid.weights,
-        Constraints(load=LOAD, hardness=cylinder.hardness),
-    )
-    assert solution.converged
+    solution = pressed(grid, MODULUS, roller_gap(RADIUS), load=LOAD, hardness=cylinder.hardness)
     volume = pitch * np.maximum(-solution.gap, 0.0)[solution.pressure > 0.0].sum()
     wanted = cylinder.pressure(grid.x)
     return (

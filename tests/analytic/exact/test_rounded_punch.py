@@ -2,15 +2,13 @@
 
 import numpy as np
 import pytest
+from hats import pressed
 from scenes import reference
 
-from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.exact.rounded_punch import RoundedPunch, rounded_punch_from_half_width
 from analytic.grid import HatGrid
-from analytic.operators.half_plane import HalfPlane
 
 CASES = reference("f_rounded_punch_and_sliding")["rounded_punch"]
 
@@ -130,15 +128,9 @@ def solved(punch: RoundedPunch, elements: int, offset: float):
     reach = 1.5 * punch.half_width
     grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
     shift = offset * grid.pitch
+    modulus, load = punch.combined_modulus, punch.load_per_length
     knots = np.array([-punch.half_flat, punch.half_flat]) + shift
-    solution = solve_contact(
-        HalfPlane(grid.count, grid.pitch, punch.combined_modulus),
-        grid.hat_integrals(lambda x: punch.gap(x - shift), knots),
-        grid.weights,
-        Constraints(load=punch.load_per_length),
-    )
-    assert solution.converged
-    return grid.x - shift, solution
+    return grid.x - shift, pressed(grid, modulus, lambda x: punch.gap(x - shift), knots, load=load)
 
 
 @pytest.mark.parametrize("flat", [0.3, 0.6, 0.9])

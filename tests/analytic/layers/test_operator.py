@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from hats import of_narrow_hats
 from scipy.linalg import toeplitz
 from scipy.special import zeta
 
@@ -109,23 +110,19 @@ def test_operator_and_preconditioner_are_positive_definite(base, pitch):
 @pytest.mark.parametrize("base", [*RIGID, SUBSTRATES[1], SUBSTRATES[2]], ids=named)
 def test_coarsened_operators_agree_on_coarse_hats(base):
     body = LayeredBody(LAYER, 1.0, base)
-    fine = LayeredSurface(31, 0.1, body)
-    coarse = fine.coarsened()
-    refine = np.zeros((fine.count, coarse.count))
-    for j in range(coarse.count):
-        refine[[2 * j, 2 * j + 1, 2 * j + 2], j] = 0.5, 1.0, 0.5
+    fine, refine = LayeredSurface(31, 0.1, body), of_narrow_hats(31)
     expected = refine.T @ toeplitz(fine.column) @ refine
     scale = np.abs(expected).max()
-    assert toeplitz(coarse.column) == pytest.approx(expected, abs=1e-13 * scale)
+    assert toeplitz(fine.coarsened().column) == pytest.approx(expected, abs=1e-13 * scale)
 
 
-def pressed(body, half_width, count, load, radius=1.0):
+def pressed(body, half_width, count, **limits):
     """A cylinder of R = 1 m on `count` elements over 2.5 half-widths; pressures, and the grid."""
     pitch = 2.5 * half_width / count
     grid = HatGrid.within(-1.25 * half_width, 1.25 * half_width, pitch)
     operator = LayeredSurface(grid.count, pitch, body)
-    gap = grid.hat_integrals(roller_gap(radius))
-    solution = solve_contact(operator, gap, grid.weights, Constraints(load=load))
+    gap = grid.hat_integrals(roller_gap(1.0))
+    solution = solve_contact(operator, gap, grid.weights, Constraints(**limits))
     assert solution.converged
     return solution, grid
 
@@ -142,7 +139,7 @@ def test_contact_of_a_cylinder(case):
     load, counts = float(case["P_R_over_Eprime_t2"]), (128, 512, 2048)
     errors = []
     for count in counts:
-        solution, grid = pressed(body, half_width, count, load)
+        solution, grid = pressed(body, half_width, count, load=load)
         errors.append(abs(np.max(solution.pressure) / peak - 1.0))
         touching = grid.pitch * np.count_nonzero(solution.pressure)
         assert touching == pytest.approx(2.0 * half_width, abs=1.5 * grid.pitch)
@@ -159,18 +156,13 @@ def test_thick_layer_is_hertz(base):
     """a/t = 1e-3: the base changes the pressure by (a/t)^2."""
     body, half_width = LayeredBody(LAYER, 1.0, base), 1e-3
     modulus = LAYER.plane_strain_modulus
-    solution, _ = pressed(body, half_width, 2048, 0.25 * np.pi * modulus * half_width**2)
+    solution, _ = pressed(body, half_width, 2048, load=0.25 * np.pi * modulus * half_width**2)
     assert np.max(solution.pressure) == pytest.approx(0.5 * modulus * half_width, rel=2e-6)
 
 
 def load_at(body, half_width, approach):
     """Load under a cylinder of R = 1 m pressed in by `approach`, 1024 elements."""
-    grid = HatGrid.within(-1.25 * half_width, 1.25 * half_width, 2.5 * half_width / 1024)
-    operator = LayeredSurface(grid.count, grid.pitch, body)
-    gap = grid.hat_integrals(roller_gap(1.0))
-    solution = solve_contact(operator, gap, grid.weights, Constraints(approach=approach))
-    assert solution.converged
-    return solution.load
+    return pressed(body, half_width, 1024, approach=approach)[0].load
 
 
 def test_thin_layer_on_a_frictionless_base_is_a_bed_of_springs():
@@ -222,7 +214,7 @@ def test_finer_grids_cost_few_more_applications(base, half_width):
     body = LayeredBody(LAYER, 1.0, base)
     modulus = 2.0 * half_width / normal_compliance(body, 1.0 / half_width)
     spent = [
-        pressed(body, half_width, count, 0.3 * modulus * half_width**2)[0].iterations
+        pressed(body, half_width, count, load=0.3 * modulus * half_width**2)[0].iterations
         for count in (512, 8192)
     ]
     assert spent[1]["applications"] - spent[0]["applications"] < 4 * 20

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from hats import of_narrow_hats
 from numpy.polynomial.legendre import leggauss
 from scenes import reference
 from scipy.integrate import quad
@@ -115,17 +116,11 @@ def test_coupled_half_plane_is_normal_and_tangential_together(count):
     expected += toeplitz(column, -column) @ pressure
     assert coupled.apply(pressure) == pytest.approx(expected, rel=1e-12)
     if count > 1:
-        half = pressure[: count // 2]
-        coarse, fine = coupled.coarsened(), np.zeros(count)
-        spread = np.zeros((count, count // 2))
-        for j in range(count // 2):
-            for offset, share in ((0, 0.5), (1, 1.0), (2, 0.5)):
-                if 2 * j + offset < count:
-                    spread[2 * j + offset, j] = share
-        fine = spread @ half
+        half, refine = pressure[: count // 2], of_narrow_hats(count)
+        coarse = coupled.coarsened()
         assert coarse.datum == coupled.datum
         if count % 2:
-            moved, expected = coarse.apply(half), spread.T @ coupled.apply(fine)
+            moved, expected = coarse.apply(half), refine.T @ coupled.apply(refine @ half)
             assert moved == pytest.approx(expected, rel=1e-10)
 
 
