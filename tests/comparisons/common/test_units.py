@@ -1,13 +1,10 @@
 """Units against pint's own tables, exact factors, and whatever a user may type."""
 
-import subprocess
-import sys
 from fractions import Fraction
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from scenes import PROJECT
 
 from comparisons.common.units import (
     COMMON_UNITS,
@@ -132,15 +129,3 @@ def test_any_text_is_a_quantity_or_a_unit_error(text, dimension):
         assert str(error).isprintable()
     else:
         assert abs(value) < float("inf")
-
-
-@pytest.mark.parametrize(("text", "loaded"), [("8.2 mm", False), ("8.2 cm", True)])
-def test_pint_is_loaded_for_rare_units_only(text, loaded):
-    code = (
-        "import sys; from comparisons.common.units import LENGTH, to_si; "
-        f"to_si({text!r}, LENGTH); print('pint' in sys.modules)"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == str(loaded)

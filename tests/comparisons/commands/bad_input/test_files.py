@@ -62,18 +62,10 @@ def test_control_characters_of_a_name_are_shown_harmless(complaint):
     assert "\x1b" not in line and r"\x1b[31m.toml" in line
 
 
-@pytest.mark.parametrize(
-    ("changes", "arguments", "fragment"),
-    [
-        ({"roller.raduis": "1"}, ["scene.toml"], "the nearest is roller.radius"),
-        (MEASURED, ["scene.toml", "--json"], "profile.file: trace.csv: there is no such file"),
-        ({}, ["scene.toml", "--out", "scene.toml"], "scene.toml is not a folder"),
-    ],
-)
-def test_as_a_process(tmp_path, changes, arguments, fragment, toml):
-    (tmp_path / "scene.toml").write_text(toml(changes))
+def test_as_a_process(tmp_path, toml):
+    (tmp_path / "scene.toml").write_text(toml({"roller.raduis": "1"}))
     done = subprocess.run(
-        [sys.executable, "-m", "comparisons.cli", "run", *arguments],
+        [sys.executable, "-m", "comparisons.cli", "run", "scene.toml", "--json"],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(PROJECT)},
         capture_output=True,
@@ -83,5 +75,5 @@ def test_as_a_process(tmp_path, changes, arguments, fragment, toml):
     assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr.startswith("crosscheck: ") and done.stderr.count("\n") == 1
-    assert fragment in done.stderr
+    assert "the nearest is roller.radius" in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]

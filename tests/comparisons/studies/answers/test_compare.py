@@ -70,7 +70,7 @@ def test_three_per_cent_more_differ(answered, curve):
     outcome = answered(curve(p=lambda p: 1.03 * p))
     assert verdicts(outcome) == {"peak_pressure": "differ", "contact_length": "agree"}
     assert row(outcome, "peak_pressure").value == pytest.approx(0.03, abs=1e-4)
-    assert balance(outcome) == pytest.approx(0.03, abs=1e-3)
+    assert balance(outcome) == pytest.approx(0.03, abs=1e-3) and table(outcome, HINTS) == []
     assert table(outcome, CONDITIONS)[0]["penetration"] > 0.01
     assert outcome.exit_status == 1
     kind, sentence = answer_verdict(outcome, "other")

@@ -68,7 +68,3 @@ def test_another_contact_is_said_to_be_one(answered, curve):
     """Many narrow contacts in place of one."""
     hint = hints(answered(curve(p=lambda p: p * (np.arange(len(p)) % 100 < 20))))
     assert set(hint) == {"unexplained"}
-
-
-def test_three_per_cent_more_have_no_explanation(answered, curve):
-    assert hints(answered(curve(p=lambda p: 1.03 * p))) == {}
