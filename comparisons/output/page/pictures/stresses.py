@@ -11,7 +11,15 @@ import numpy as np
 
 from comparisons.common.numbers import decimal, percent_as_written, plain, significant
 from comparisons.drawing import style
-from comparisons.drawing.curves import COINCIDE, Curve, columns, distinct, joint_label, names_above
+from comparisons.drawing.curves import (
+    COINCIDE,
+    Curve,
+    columns,
+    distinct,
+    joint_label,
+    joint_legend,
+    names_above,
+)
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
 from comparisons.models.level import STRAIN
@@ -253,12 +261,8 @@ def _section_picture(run: Run, column: int, words: str, names: int) -> style.Pic
         panels[0].set_title(f"friction {plain(friction)}")
     for panels in sides:
         panels[-1].set_xlabel("z/a")
-    entries = {}
-    for axes in drawn.axes:
-        lines, labels = axes.get_legend_handles_labels()
-        entries |= dict(zip(labels, lines, strict=True))
-    room = {"ncols": abreast, "borderaxespad": 0.1, "columnspacing": 1.2}
-    drawn.legend(entries.values(), entries, loc="upper left", bbox_to_anchor=(0.1, 1.0), **room)
+    look = {"borderaxespad": 0.1, "columnspacing": 1.2}
+    joint_legend(drawn, abreast, bbox_to_anchor=(0.1, 1.0), **look)
     at = decimal(run.window.x[column] / hertz.half_width)
     largest = "; ".join(
         f"friction {plain(mu)}: "

@@ -5,8 +5,10 @@ from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
 import pytest
+from matplotlib import pyplot
 from scenes import STEEL
 
+from comparisons.drawing.style import collected_figures
 from comparisons.output.page.page import render
 from comparisons.studies.study import Run
 
@@ -84,6 +86,22 @@ class Page(HTMLParser):
 def page_of() -> type[Page]:
     """`page_of(source)`: a page taken apart."""
     return Page
+
+
+def drawn(draw: Callable, outcome: Run) -> tuple[list, object]:
+    """The figures that a function draws of a run, and what it returns."""
+    with collected_figures() as figures:
+        made = draw(outcome)
+        for figure in figures:
+            figure.draw_without_rendering()
+    for figure in figures:
+        pyplot.close(figure)
+    return figures, made
+
+
+@pytest.fixture(scope="session")
+def drawn_by() -> Callable:
+    return drawn
 
 
 @pytest.fixture(scope="session")

@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib import pyplot
 from scenes import budgeted
 
 from comparisons.common.progress import no_progress
-from comparisons.drawing.style import collected_figures
 from comparisons.output.arrays import RunArrays
 from comparisons.output.page.pictures.contact import pressure_picture
 from comparisons.output.page.pictures.stresses import field_pictures, section_pictures
@@ -42,14 +40,6 @@ def labels(axes) -> list[str]:
     return [line.get_label() for line in axes.lines if not line.get_label().startswith("_")]
 
 
-def drawn(draw, outcome: Run) -> list:
-    with collected_figures() as figures:
-        draw(outcome)
-    for figure in figures:
-        pyplot.close(figure)
-    return figures
-
-
 def test_a_whole_model_that_is_the_scenes_own_is_no_further_model(outcome: Run):
     assert list(outcome.levels(0.0)) == ["half_plane", "finite_element"]
     assert list(outcome.levels(0.1)) == ["half_plane", "finite_element", "whole"]
@@ -59,10 +49,10 @@ def test_a_whole_model_that_is_the_scenes_own_is_no_further_model(outcome: Run):
     assert outcome.deciding_friction in (0.0, 0.1)
 
 
-def test_pressures_and_their_difference_are_those_of_the_whole(outcome: Run, monkeypatch):
+def test_pressures_and_their_difference_are_those_of_the_whole(outcome, drawn_by, monkeypatch):
     monkeypatch.setattr(Run, "deciding_friction", 0.1)
     p0, whole = outcome.problem.hertz.peak_pressure, outcome.data("model_error").wholes[0.1]
-    for figure in drawn(pressure_picture, outcome):
+    for figure in drawn_by(pressure_picture, outcome)[0]:
         above, difference, _ = figure.axes
         assert labels(above)[:3] == ["half-plane", "finite elements", "whole model, μ = 0.1"]
         line = next(line for line in above.lines if line.get_label() == "whole model, μ = 0.1")
@@ -73,13 +63,13 @@ def test_pressures_and_their_difference_are_those_of_the_whole(outcome: Run, mon
         )
 
 
-def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run):
-    plain, sliding, *_ = drawn(field_pictures, outcome)
+def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run, drawn_by):
+    plain, sliding, *_ = drawn_by(field_pictures, outcome)[0]
     for figure, name in ((plain, "finite elements"), (sliding, "whole model")):
         assert figure.axes[1].get_title(loc="left").startswith(f"{name}: largest")
         titles = [axes.get_title(loc="left") for axes in figure.axes]
         assert f"half-plane − {name}" in titles
-    [section, *_] = drawn(section_pictures, outcome)
+    [section, *_] = drawn_by(section_pictures, outcome)[0]
     names = [labels(axes) for axes in section.axes]
     assert "whole model" not in names[0] and "whole model" in names[1]
 
