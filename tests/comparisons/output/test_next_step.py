@@ -217,8 +217,8 @@ def test_the_command_is_the_users_own_with_what_is_offered_in_its_place(typed, m
 def test_a_scene_that_init_wrote_takes_every_kind_of_offer(typed, tmp_path):
     x = np.arange(800)
     np.savetxt(tmp_path / "trace.csv", np.column_stack([x, 0.1 * np.sin(x / 9.0)]), delimiter=",")
-    asked = "init trace.csv --x-unit um --z-unit um --no-picture --peak-pressure".split()
-    assert main([*asked, "1.5 GPa"]) == 0
+    units = ["--x-unit", "um", "--z-unit", "um"]
+    assert main(["init", "trace.csv", *units, "--no-picture", "--peak-pressure", "1.5 GPa"]) == 0
     said = set()
     for seed in range(18):
         asked = ["", " --set body.yield_stress='0.2 GPa'", " --tolerance=1% --out there"][seed % 3]
