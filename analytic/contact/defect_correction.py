@@ -74,7 +74,10 @@ def solve_with_model(
     path: list[tuple[np.ndarray, np.ndarray]] = []  # r and f of the last steps
     best, model_applications, probes = None, 0, 0
     if constraints.approach is not None and isinstance(model, HalfPlane):
-        model = _at_datum_of(operator, model, weights, start)
+        # at the datum of the operator, as seen under the start or an even pressure
+        seen = start if start is not None and start.any() else np.ones_like(weights)
+        work = seen @ (operator.apply(seen) - model.apply(seen))
+        model = model.on_base(work / (weights @ seen) ** 2)
         model_applications, probes = 1, 1
     if nearer:
         carried = operator.apply(start) - model.apply(start)
@@ -91,8 +94,12 @@ def solve_with_model(
         free = _free(pressure, constraints)
         if bearing is not None:
             constraints = replace(constraints, load=bearing(pressure))
+        approach = constraints.approach
+        if approach is None:  # the one that closes the mean gap of the free nodes
+            carriers = np.where(free, pressure, 0.0)
+            left = weighted_gap + weighted_displacement
+            approach = float(carriers @ left / (carriers @ weights))
         contact = weighted_displacement, pressure, weighted_gap, weights
-        approach = _approach(*contact, constraints)
         solution = assessed(*contact, approach, constraints, counts, tolerance)
         misfit = weighted_displacement - model.apply(pressure) - carried
         if constraints.approach is None:  # the approach takes up what is common to all nodes
@@ -113,15 +120,6 @@ def solve_with_model(
     return replace(best, approach=best.approach + common, iterations=counts)
 
 
-def _at_datum_of(
-    operator: ComplianceOperator, model: HalfPlane, weights: np.ndarray, start: np.ndarray | None
-) -> HalfPlane:
-    """The model at the datum of the operator, as seen under `start` or an even pressure."""
-    pressure = start if start is not None and start.any() else np.ones_like(weights)
-    work = pressure @ (operator.apply(pressure) - model.apply(pressure))
-    return model.on_base(work / (weights @ pressure) ** 2)
-
-
 def _onward(
     path: list[tuple[np.ndarray, np.ndarray]], nodes: np.ndarray, share: float
 ) -> np.ndarray:
@@ -140,17 +138,3 @@ def _free(pressure: np.ndarray, constraints: Constraints) -> np.ndarray:
     touching = pressure > 0.0
     free = touching & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
     return free if free.any() else touching
-
-
-def _approach(
-    weighted_displacement: np.ndarray,
-    pressure: np.ndarray,
-    weighted_gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-) -> float:
-    """The approach as prescribed, or the one that closes the mean gap of the free nodes [m]."""
-    if constraints.approach is not None:
-        return constraints.approach
-    carriers = np.where(_free(pressure, constraints), pressure, 0.0)
-    return float(carriers @ (weighted_gap + weighted_displacement) / (carriers @ weights))

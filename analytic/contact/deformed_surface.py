@@ -117,7 +117,9 @@ class DeformedContact:
         if self.roller is not None:
             roller = SecondOrderSurface(self.roller, pitch)
             above = roller.aside(pressure)
-            slope = slope + self._flattened(pressure)
+            operator = HalfPlane(len(x), pitch, self.roller.plane_strain_modulus)
+            # by which the pressure flattens the roller
+            slope = slope + np.gradient(operator.apply(pressure) / self.grid.weights, x)
             second = roller.rise(pressure, -slope)  # the roller is turned over
         second = second + body.rise(pressure, slope)
         aside = CubicSpline(x, np.array([below, above, second]), axis=1)
@@ -127,9 +129,3 @@ class DeformedContact:
             return self.sagitta(at - other) - self.height(at - moved) - risen
 
         return gap
-
-    def _flattened(self, pressure: np.ndarray) -> np.ndarray:
-        """Slope (n,) by which the pressure flattens the roller."""
-        grid = self.grid
-        operator = HalfPlane(grid.count, grid.pitch, self.roller.plane_strain_modulus)
-        return np.gradient(operator.apply(pressure) / grid.weights, grid.x)

@@ -93,8 +93,14 @@ def _grid(
             "uniform strips have no finite sx at their ends on the surface: take z > 0, "
             "an odd number of subdivisions, or hats"
         )
-    first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
-    x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
+    step = pitch / subdivisions
+    low, high = ((bound - x_nodes[0]) / step for bound in x_range)
+    first, last = int(np.ceil(low - 1e-6)), int(np.floor(high + 1e-6))
+    if last < first:
+        raise ValueError(
+            f"no point of the grid of {step:g} m lies between {x_range[0]:g} and {x_range[1]:g} m"
+        )
+    x = x_nodes[0] + np.arange(first, last + 1, stride) * step
     return StressGrid(x, z, pitch, subdivisions, first, last, stride, element)
 
 
@@ -118,14 +124,3 @@ def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
     log_ratio = brentq(excess, 0.0, bound, xtol=1e-15) if excess(0.0) < 0.0 else 0.0
     levels = np.concatenate([[0.0], np.cumsum(np.exp(log_ratio * order))])
     return depth * levels / levels[-1]
-
-
-def _window(x_range: tuple[float, float], origin: float, step: float) -> tuple[int, int]:
-    """First and last step of the grid from `origin` within `x_range`, ends included."""
-    low, high = ((bound - origin) / step for bound in x_range)
-    first, last = int(np.ceil(low - 1e-6)), int(np.floor(high + 1e-6))
-    if last < first:
-        raise ValueError(
-            f"no point of the grid of {step:g} m lies between {x_range[0]:g} and {x_range[1]:g} m"
-        )
-    return first, last

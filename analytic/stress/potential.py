@@ -44,13 +44,13 @@ def element_moments(element: Element, count: int) -> np.ndarray:
 
 
 def element_potential(
-    x: np.ndarray, z: np.ndarray, element: Element, terms: int, out: np.ndarray | None = None
-) -> np.ndarray:
-    """Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit element at 0.
+    x: np.ndarray, z: np.ndarray, element: Element, terms: int, out: np.ndarray
+) -> None:
+    """Fill `out` with Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit element at 0.
 
-    On x (columns,) and z (levels,) in pitches; from the first `terms` > 2 even moments; into `out`
-    if it is given. With v = 1/w, s = v^2, m = 2 Re s and n = |s|^2 any power obeys s^2 = m s - n,
-    so that the sums of real coefficients over powers of s are divided by that to first order:
+    On x (columns,) and z (levels,) in pitches; from the first `terms` > 2 even moments. With
+    v = 1/w, s = v^2, m = 2 Re s and n = |s|^2 any power obeys s^2 = m s - n, so that the sums of
+    real coefficients over powers of s are divided by that to first order:
 
         I = v (p0 + p1 s)      I' = s (d0 + d1 s)      v s = m v - |s| conj(v)
 
@@ -58,12 +58,10 @@ def element_potential(
     """
     value = element_moments(element, 2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
-    derivatives = np.empty((4, len(z), len(x))) if out is None else out
     step = max(1, _BLOCK // len(x))
     for start in range(0, len(z), step):
         rows = slice(start, start + step)
-        _fill(x, z[rows, None], value, slope, derivatives[:, rows])
-    return derivatives
+        _fill(x, z[rows, None], value, slope, out[:, rows])
 
 
 def _fill(

@@ -63,11 +63,13 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
     z = heights - level
     square = np.sum(weights * z**2)
     cube, fourth = np.sum(weights * z**3), np.sum(weights * z**4)
+    ends = np.concatenate((curve.x[:1], crossings(curve, level), curve.x[-1:]))
+    area = curve.antiderivative()(ends) - level * (ends - ends[0])  # exact between the crossings
     slope = curve.derivative(1)
     steepest = slope(np.append(curve.x, crossings(curve.derivative(2))))
     return Roughness(
         mean=mean,
-        ra=_mean_deviation(curve, level),
+        ra=float(np.sum(np.abs(np.diff(area))) / (ends[-1] - ends[0])),
         rq=float(np.sqrt(square)),
         rsk=float(cube / square**1.5) if square > 0.0 else 0.0,
         rku=float(fourth / square**2) if square > 0.0 else 0.0,
@@ -172,11 +174,3 @@ def _zeros_of_quadratics(piecewise: PPoly) -> np.ndarray:
     steps[:, b**2 < 4.0 * a * c] = np.nan
     inside = (steps >= 0.0) & (steps <= np.diff(piecewise.x))
     return np.sort((piecewise.x[:-1] + steps)[inside])
-
-
-def _mean_deviation(curve: PPoly, mean: float) -> float:
-    """Mean of |curve - mean|, exact between the crossings of the mean line."""
-    first, last = curve.x[0], curve.x[-1]
-    ends = np.concatenate(([first], crossings(curve, mean), [last]))
-    area = curve.antiderivative()(ends) - mean * (ends - first)
-    return float(np.sum(np.abs(np.diff(area))) / (last - first))

@@ -1,5 +1,7 @@
 """Sliding with coupling against high-precision values, its integral equation, and Hertz."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from scenes import reference
@@ -11,20 +13,11 @@ from analytic.exact.sliding import sliding_from_load
 CASES = reference("f_rounded_punch_and_sliding")["sliding_cylinder"]
 
 
-def fraction(text: str) -> float:
-    numerator, _, denominator = text.partition("/")
-    return float(numerator) / float(denominator or 1.0)
-
-
-def identifier(case: dict) -> str:
-    return f"beta {case['beta']}, mu {case['mu']}"
-
-
-@pytest.mark.parametrize("case", CASES, ids=identifier)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"beta {case['beta']}, mu {case['mu']}")
 def test_reference_values(case):
     """Half-plane below, cylinder sliding in +x: the contact moves to -x."""
     value = {k: float(v) for k, v in case.items() if not isinstance(v, list) and k != "beta"}
-    beta = fraction(case["beta"])
+    beta = float(Fraction(case["beta"]))
     contact = sliding_from_load(value["P_R_over_Estar_ahalf2"], 1.0, 1.0, value["mu"], beta)
     assert contact.half_width == pytest.approx(1.0, rel=3e-16)
     assert contact.exponent_shift == pytest.approx(value["eta"], rel=1e-15)

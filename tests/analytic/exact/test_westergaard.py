@@ -17,23 +17,19 @@ def unit(share: float, wavelength: float = 1.0) -> WestergaardContact:
     return westergaard_from_mean_pressure(share, wavelength, 1.0 / np.pi, wavelength)
 
 
-def value(row: dict, key: str) -> float:
-    return float(row[key])
-
-
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["pbar_over_pstar"])
 def test_reference_values(case):
-    contact = unit(value(case, "pbar_over_pstar"))
+    value = {key: float(v) for key, v in case.items() if key != "profile"}
+    contact, half_width = unit(value["pbar_over_pstar"]), value["half_width_over_lambda"]
     assert contact.closing_pressure == pytest.approx(1.0, rel=1e-15)
-    half_width = value(case, "half_width_over_lambda")
     assert contact.half_width == pytest.approx(half_width, rel=1e-15)
-    assert contact.peak_pressure == pytest.approx(value(case, "peak_p_over_pstar"), rel=1e-15)
-    mean, valley = value(case, "mean_gap_over_Delta"), value(case, "valley_gap_over_Delta")
-    assert np.pi * contact.mean_gap == pytest.approx(mean, rel=2e-15)
-    assert np.pi * westergaard_gap(contact, 0.5) == pytest.approx(valley, rel=3e-15)
+    assert contact.peak_pressure == pytest.approx(value["peak_p_over_pstar"], rel=1e-15)
+    valley = np.pi * westergaard_gap(contact, 0.5)
+    assert np.pi * contact.mean_gap == pytest.approx(value["mean_gap_over_Delta"], rel=2e-15)
+    assert valley == pytest.approx(value["valley_gap_over_Delta"], rel=3e-15)
     assert len(case["profile"]) == 6
     for row in case["profile"]:
-        x, expected = value(row, "x_over_lambda"), value(row, "p_over_pstar")
+        x, expected = float(row["x_over_lambda"]), float(row["p_over_pstar"])
         # next to the edge the rounding of the quoted place shows
         assert contact.pressure(x) == pytest.approx(expected, rel=1e-15 / (1.0 - x / half_width))
 
