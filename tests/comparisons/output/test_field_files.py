@@ -190,14 +190,11 @@ def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
     assert stresses[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
 
 
-def test_displacements_warp_the_mesh_in_its_plane(outcome, tmp_path):
+def test_displacements_are_those_of_the_mesh_in_its_plane(outcome):
     field = field_of(outcome, outcome.runs["finite_element"].finest)
     for friction in ("0", "0.1"):
         moved = field.arrays[f"displacement (friction {friction})"]
         assert moved == pytest.approx(1e-3 * field.points[:, [1, 0, 2]], rel=1e-5)
-    grid = pyvista.read(written(field, tmp_path))
-    warped = grid.warp_by_vector("displacement (friction 0.1)", factor=2.0).points
-    assert warped == pytest.approx(field.points + 2.0 * moved, rel=1e-6)
 
 
 IN_GMSH = """

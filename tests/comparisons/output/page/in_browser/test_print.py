@@ -5,13 +5,10 @@ from collections.abc import Callable
 from pathlib import Path
 from unittest.mock import patch
 
-import numpy as np
 import pytest
-from scenes import SMOOTH, resolved
 
 from comparisons.output.page.page import render
 from comparisons.output.page.pdf import NoPdfError, print_pdf, print_report
-from comparisons.runs.run import run
 from comparisons.studies.study import Run
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
@@ -86,19 +83,6 @@ def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
         assert tuple(map(float, box)) == pytest.approx(A4, abs=0.5)
     made = {path.name for path in wavy_file.parent.iterdir()}
     assert made == {"record.json", "report.html", "report.pdf"}  # which says whose the pdf is
-
-
-def test_contact_beside_the_middle_is_printed_too(browser, tmp_path, monkeypatch):
-    """A ridge that lifts the roller off where it is deepest."""
-    x = 2.0 * np.arange(801)
-    ridge = 18.0 * np.exp(-0.5 * ((x - 400.0) / 20.0) ** 2)
-    np.savetxt(tmp_path / "ridge.csv", np.column_stack([x, ridge]))
-    rough = {"file": "ridge.csv", "form": "none", "x_unit": "um", "z_unit": "um"}
-    tables = SMOOTH | {"profile": rough, "stress": {}, "load": {"per_length": 2e5}}
-    scene = resolved(tables, folder=tmp_path)
-    outcome = run(scene, tmp_path / "out", ("half_plane",))
-    assert outcome.runs["half_plane"].finest.patches.max() < -2.0 * outcome.problem.hertz.half_width
-    assert print_report(tmp_path / "out").read_bytes().startswith(b"%PDF-")
 
 
 def fake(folder: Path, script: str) -> None:
