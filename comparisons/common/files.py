@@ -103,11 +103,21 @@ def _cannot(out: Path, why: str) -> InputError:
     return InputError(f"{out}: cannot be written: {why}")
 
 
+def _remove_abandoned(paths: Iterable[Path]) -> None:
+    """Remove those files and folders that a process left which was killed a day ago."""
+    for path in paths:
+        with suppress(FileNotFoundError):  # another process has just done with it
+            if time() - path.stat().st_mtime > DAY:
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """A path to write to: what is there when the block ends replaces `path`; if the block fails or
     is interrupted, `path` stays as it was."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    beside = f".{path.name}."
+    part = path.with_name(f"{beside}{os.getpid()}.part")
+    _remove_abandoned(path.parent.glob(f"{glob.escape(beside)}*.part"))
     try:
         yield part
         os.replace(part, path)
@@ -138,9 +148,7 @@ def published(out: Path, files: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     beside = f".{out.name}.part-"
     place, prefix = (out, ".part-") if out.is_dir() else (out.parent, beside)
     place.mkdir(parents=True, exist_ok=True)
-    for left in (*out.glob(".part-*"), *out.parent.glob(f"{glob.escape(beside)}*")):
-        if time() - left.stat().st_mtime > DAY:
-            shutil.rmtree(left)
+    _remove_abandoned((*out.glob(".part-*"), *out.parent.glob(f"{glob.escape(beside)}*")))
     with tempfile.TemporaryDirectory(prefix=prefix, dir=place) as folder:
         scratch = Path(folder)
         yield scratch
