@@ -142,40 +142,6 @@ class TestSmooth:
             assert load == pytest.approx(3.55e6, rel=1e-9)
         assert not (out / "half_plane" / "mesh.msh").exists()
 
-    @pytest.mark.parametrize("model", MODELS)
-    def test_stress_files_open_in_meshio_and_pyvista_with_equal_values(self, smooth, model):
-        import meshio
-        import pyvista
-
-        path = smooth.directory / model / "stress.vtu"
-        by_meshio, by_pyvista = meshio.read(path), pyvista.read(path)
-        components = {"sx", "sz", "sy", "txz", "tau1", "von_mises"}
-        names = {*components, "s1_direction"}
-        if model == "finite_element":
-            names |= {"displacement"}
-            names |= {f"{of}_{name}" for of in ("half_plane", "difference") for name in components}
-        assert names == set(by_meshio.point_data) == set(by_pyvista.point_data.keys())
-        for name in names:
-            assert np.array_equal(by_meshio.point_data[name], by_pyvista.point_data[name])
-        assert np.array_equal(by_meshio.points, by_pyvista.points)
-        assert not by_meshio.points[:, 2].any() and by_meshio.points[:, 1].min() >= 0.0
-        surface = by_meshio.points[:, 1] == 0.0
-        pressure = smooth.problem.hertz.pressure(by_meshio.points[surface, 0])
-        assert by_meshio.point_data["sz"][surface] == pytest.approx(
-            -pressure, abs=0.05 * pressure.max()
-        )
-
-    def test_mesh_file_opens_in_meshio(self, smooth):
-        import meshio
-
-        mesh = meshio.read(smooth.directory / "finite_element" / "mesh.msh", file_format="gmsh")
-        assert len(mesh.points) == len(smooth.runs["finite_element"].finest.mesh.points)
-
-    def test_the_same_scene_gives_the_same_figures(self, smooth, tmp_path):
-        again = run(resolved(QUICK), tmp_path / "out", MODELS)
-        assert figures(again) == figures(smooth)
-        assert again.record["hashes"] == smooth.record["hashes"]
-
     def test_leaving_steps_out_changes_no_figure(self, smooth, tmp_path):
         """The roller on a factorisation of its own, though the body's would do."""
         plan = replace(smooth.plan, shared_factor=False)

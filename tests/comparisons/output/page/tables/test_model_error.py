@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from scenes import budgeted, judging, posed, refound
+from scenes import budgeted, refound
 
 from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.model_error.catalogue import EFFECTS
@@ -104,20 +104,13 @@ def test_every_effect_that_applies_is_in_the_table(split: Run):
     assert {row[0]: row[1] for row in table.rows}["exact circle"] == EFFECTS["exact_circle"].words
 
 
-def judged_by(outcome: Run, tolerance: dict[str, float]) -> Run:
-    scene = judging(outcome.problem.scene, tolerance)
-    judged = posed(outcome, problem=replace(outcome.problem, scene=scene))
-    return budgeted(judged, outcome.data("model_error"))
-
-
-class TestWaterfalls:
-    def test_steps_add_up_to_the_error_with_its_sign(self, split: Run):
-        peak, _ = waterfalls(split)
-        assert peak.name == "peak pressure"  # equal at both frictions
-        error = peak.error
-        assert (error.value, error.numerical, error.tolerance) == (-0.031, 0.0012, 0.02)
-        assert peak.steps["finite thickness or width"] == -0.04
-        assert peak.steps["finite roller"] == 0.012 and peak.steps["interaction"] == -0.002
-        assert sum(peak.steps.values()) == pytest.approx(error.value)
-        assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
-        assert error.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
+def test_steps_of_a_waterfall_add_up_to_the_error_with_its_sign(split: Run):
+    peak, _ = waterfalls(split)
+    assert peak.name == "peak pressure"  # equal at both frictions
+    error = peak.error
+    assert (error.value, error.numerical, error.tolerance) == (-0.031, 0.0012, 0.02)
+    assert peak.steps["finite thickness or width"] == -0.04
+    assert peak.steps["finite roller"] == 0.012 and peak.steps["interaction"] == -0.002
+    assert sum(peak.steps.values()) == pytest.approx(error.value)
+    assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
+    assert error.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
