@@ -56,14 +56,9 @@ class TestCylinder:
         counts, errors = np.array([20, 40, 80, 160]), []
         for count in counts:
             profile = smooth(length=4.0 * exact.contact, samples=4 * count + 1)
-            settled = [
-                ran_in(
-                    profile,
-                    [place * profile.spacing],
-                    Constraints(load=LOAD, hardness=exact.hardness),
-                )
-                for place in np.arange(0.03, 1.0, 0.12)
-            ]
+            limits = Constraints(load=LOAD, hardness=exact.hardness)
+            places = profile.spacing * np.arange(0.03, 1.0, 0.12)
+            settled = [ran_in(profile, [place], limits) for place in places]
             assert all(one.status == "settled" for one in settled)
             ratios = [
                 [one.volume / flowed_volume(exact), one.largest_lowering / largest_overlap(exact)]
@@ -117,14 +112,10 @@ class TestAccount:
         lost = WAVY.height - wavy.profile.height
         assert lost == pytest.approx(wavy.lowering, abs=1e-18)
         assert trapezoid_widths(WAVY.x) @ lost == pytest.approx(wavy.volume, rel=1e-9)
-        curves = (
-            WAVY.spline().integrate(*WAVY.x[[0, -1]]),
-            wavy.profile.spline().integrate(*WAVY.x[[0, -1]]),
-        )
-        assert curves[0] - curves[1] == pytest.approx(wavy.volume, rel=1e-3)
-        assert (
-            wavy.largest_lowering == wavy.lowering.max() <= sum(one.lowering for one in wavy.passes)
-        )
+        one, other = (p.spline().integrate(*WAVY.x[[0, -1]]) for p in (WAVY, wavy.profile))
+        assert one - other == pytest.approx(wavy.volume, rel=1e-3)
+        lowered = sum(one.lowering for one in wavy.passes)
+        assert wavy.largest_lowering == wavy.lowering.max() <= lowered
         assert wavy.volume == sum(one.volume for one in wavy.passes) > 0.0
 
     def test_ground_is_only_lowered_and_only_on_crests(self, wavy):

@@ -77,16 +77,15 @@ def test_a_layer_that_no_mesh_can_show_is_refused(layer, thickness):
         problem(tables)
 
 
+THIN = {**STEEL, "thickness": 1e-5}
+NOT_ALLOWED = r"coating.youngs_modulus: is .* Pa; allowed is from 2\d\d"
+
+
 @pytest.mark.parametrize(
     ("sections", "said"),
     [
-        *(
-            (
-                {"coating": STEEL | {"thickness": 1e-5, "youngs_modulus": modulus}},
-                r"coating.youngs_modulus: is .* Pa; allowed is from 2\d\d",
-            )
-            for modulus in (1e-30, 1e30)
-        ),
+        ({"coating": THIN | {"youngs_modulus": 1e-30}}, NOT_ALLOWED),
+        ({"coating": THIN | {"youngs_modulus": 1e30}}, NOT_ALLOWED),
         ({"body": {"hardness": 1.0}}, r"body.hardness: is 1 Pa, .* 2.34e.08 Pa or more"),
     ],
 )

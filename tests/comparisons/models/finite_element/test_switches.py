@@ -41,13 +41,8 @@ def level_of(tables: dict, finite_element: dict, **sections: dict):
 def figures(tables: dict, finite_element: dict, **sections: dict) -> np.ndarray:
     """Peak pressure and half-width, relative to Hertz."""
     problem, level = level_of(tables, finite_element, **sections)
-    hertz = problem.hertz
-    return np.array(
-        [
-            level.solution.pressure.max() / hertz.peak_pressure,
-            0.5 * level.contact_length / hertz.half_width,
-        ]
-    )
+    peak, half_width = level.solution.pressure.max(), 0.5 * level.contact_length
+    return np.array([peak / problem.hertz.peak_pressure, half_width / problem.hertz.half_width])
 
 
 @lru_cache

@@ -8,8 +8,9 @@ import pytest
 from scenes import half_plane_at
 
 import comparisons.models.running_in
+from analytic.exact.hertz import HertzContact
 from analytic.profile import Profile
-from analytic.running_in import run_in
+from analytic.running_in import RunIn, run_in
 from analytic.surface.roughness import roughness
 from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
@@ -23,6 +24,15 @@ from comparisons.studies.study import Run
 def run_in_of(scene: Scene) -> SceneSurface:
     """Its surface, run in."""
     return run_in_surface(scene, surface_of(scene))
+
+
+def by_itself(
+    scene: Scene, pair: HertzContact, worn: RunIn, profile: Profile, pitch: float
+) -> RunIn:
+    """The profile, run in as the scene has it."""
+    places = np.array(scene.running_in.places(0.0))
+    how = pair.radius, pair.combined_modulus, worn.constraints, places
+    return run_in(profile, *how, pitch=pitch)
 
 
 class TestProblem:
@@ -44,17 +54,9 @@ class TestProblem:
         scene = resolved({"load": {"position": 5e-6}})
         surface = surface_of(scene)
         worn = run_in_surface(scene, surface).run_in
-        other = run_in(
-            surface.profile.shifted(-5e-6),
-            pair.radius,
-            pair.combined_modulus,
-            worn.constraints,
-            np.array(scene.running_in.places(0.0)),
-            pitch=worn.pitch,
-        )
-        assert (
-            worn.constraints.load == pair.load_per_length and worn.constraints.hardness == hardness
-        )
+        other = by_itself(scene, pair, worn, surface.profile.shifted(-5e-6), worn.pitch)
+        assert worn.constraints.load == pair.load_per_length
+        assert worn.constraints.hardness == hardness
         assert other.volume == pytest.approx(worn.volume, rel=1e-6)
         assert worn.passes[0].position == pytest.approx(-30e-6)
 
@@ -79,14 +81,7 @@ class TestProblem:
         worn = run_in_of(scene).run_in
         octaves = np.log2(worn.pitch / worn.before.spacing)
         assert octaves == pytest.approx(round(octaves), abs=1e-9)
-        finer = run_in(
-            worn.before,
-            pair.radius,
-            pair.combined_modulus,
-            worn.constraints,
-            np.array(scene.running_in.places(0.0)),
-            pitch=0.25 * worn.pitch,
-        )
+        finer = by_itself(scene, pair, worn, worn.before, 0.25 * worn.pitch)
         assert worn.volume == pytest.approx(finer.volume, rel=5e-3)
 
     def test_a_long_flat_trace_does_not_ask_for_more_hats_than_the_contact_needs(

@@ -13,6 +13,7 @@ from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
+from comparisons.studies.heat.half_space import HEAT_QUANTITIES
 from comparisons.studies.heat.show import heat_facts, lines
 from comparisons.studies.heat.study import HEATED, WITHOUT
 
@@ -59,18 +60,14 @@ def test_figures_in_result_json(rough):
     one, other = (flash.one(source=model, against=None) for model in MODELS)
     assert other.value == pytest.approx(one.value, rel=0.02)
     assert one.place[0] < 0.0  # the hot end is behind
-    assert {figure.source for figure in flash} - set(MODELS) == {
-        *("equal_largest", "equal_mean", "conductivities")
-    }
+    rules = {"equal_largest", "equal_mean", "conductivities"}
+    assert {figure.source for figure in flash} - set(MODELS) == rules
 
 
 def test_what_is_judged_has_a_case_for_continuous_integration(rough):
     """Whatever decides the exit status: a temperature that differs is no green run."""
     cases = {case.name: case for case in run_cases_of(rough) if case.classname.endswith(".heat")}
-    assert set(cases) == {
-        f"{name}, friction 0.1"
-        for name in ("flash_temperature", "mean_temperature", "fraction_into_body")
-    }
+    assert set(cases) == {f"{name}, friction 0.1" for name in HEAT_QUANTITIES}
     assert {case.result for case in cases.values()} == {"passed"}
     heat = [replace(f, bounds=f.bounds and (-1e-9, 1e-9)) for f in rough.findings["heat"].figures]
     differs = refound(rough, "heat", figures=tuple(heat))

@@ -25,16 +25,9 @@ def pressed(problem_with, tmp_path):
         x = np.arange(-0.5 * LENGTH, 0.5 * LENGTH, WAVE / samples)
         trace = np.column_stack([x, AMPLITUDE * np.cos(2.0 * np.pi * (x - 3e-6) / WAVE)])
         np.savetxt(tmp_path / "trace.csv", trace, delimiter=",", header="x,z", fmt="%.12e")
-        problem = problem_with(
-            profile={
-                "file": str(tmp_path / "trace.csv"),
-                "x_unit": "m",
-                "z_unit": "m",
-                "form": "none",
-            },
-            load={"hertz_peak_pressure": 1e9},
-            resolution={"pitch": 0.4e-6, "levels": 3},
-        )
+        file = {"file": str(tmp_path / "trace.csv"), "x_unit": "m", "z_unit": "m", "form": "none"}
+        load, resolution = {"hertz_peak_pressure": 1e9}, {"pitch": 0.4e-6, "levels": 3}
+        problem = problem_with(profile=file, load=load, resolution=resolution)
         levels = [half_plane_at(problem, pitch) for pitch in problem.pitches]
         return problem, levels
 
@@ -61,9 +54,8 @@ def test_of_a_well_sampled_wave_it_is_nothing(pressed):
     _, many = stated(pressed, 64)
     assert few["peak_pressure"] > 1e-4
     assert max(many[name] for name in ("peak_pressure", "contact_length")) < 1e-4
-    assert (
-        many["peak_pressure"] < 0.05 * few["peak_pressure"]
-    )  # of fourth order, till edges are seen
+    # of fourth order, till edges are seen
+    assert many["peak_pressure"] < 0.05 * few["peak_pressure"]
     assert set(many) == {"peak_pressure", "contact_length"}
 
 
