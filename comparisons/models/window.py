@@ -48,7 +48,8 @@ def field_ends(problem: Problem) -> tuple[float, float]:
     contact, the field lies about the middle of the contact, and is as wide."""
     half_width, wanted = problem.hertz.half_width, problem.scene.stress.half_range
     reach = (wanted or HALF_RANGE).metres(half_width)
-    start, stop = problem.extent
+    # without the last digits of a computed surface, which would move the mesh
+    start, stop = (round(end / half_width, 6) * half_width for end in problem.extent)
     margin = half_width * (SMOOTH_MARGIN if problem.scene.profile is None else MARGIN)
     first, last = start + margin, stop - margin
     is_seen = max(-first, last) <= reach if wanted is None else -last <= reach >= first
