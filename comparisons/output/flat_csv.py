@@ -21,7 +21,7 @@ from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
-from comparisons.output.terminal import PLAIN, STYLES, plain_table, plain_text
+from comparisons.output.terminal import first_lines, plain_table, plain_text
 from comparisons.output.within import rounded_up
 from comparisons.studies import contact, meaning
 from comparisons.studies.study import LADDER
@@ -158,13 +158,11 @@ def result_summary(result: Result) -> "Group":
     from rich.text import Text
 
     rows = judged_rows(rows_of(result, result.scene["name"]))
-    title = plain_text(result.scene["title"])
-    within = Text(result.within_words.translate(PLAIN), style="bold")
-    stamp = result.verdict.upper(), STYLES.get(result.verdict, "bold")
-    verdict = Text.assemble(stamp, f"  {result.why.translate(PLAIN)}")
+    verdict = result.verdict.upper(), result.why
+    first = first_lines(result.scene["title"], result.within_words, [verdict])
     how = {"no_wrap": True, "overflow": "ignore"}  # a command to paste
     next_steps = (Text.assemble(("Next:", "bold"), f"  {text}", **how) for text in result.next)
-    return Group(title, within, verdict, *next_steps, "", rows_tables(rows, lambda row: ""))
+    return Group(*first, *next_steps, "", rows_tables(rows, lambda row: ""))
 
 
 def _cells(row: Row, say: Callable[[str], str]) -> tuple[str, ...]:

@@ -44,13 +44,9 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     from rich.text import Text
 
     said = headline(run)
-    verdict = [
-        Text.assemble((kind, STYLES.get(kind.lower(), "bold")), f"  {sentence.translate(PLAIN)}")
-        for kind, sentence in verdicts(run, said)
-    ]
+    first = first_lines(run.problem.scene.title, said.within.sentence, verdicts(run, said))
     next_step = Text.assemble(("Next:", "bold"), f"  {said.next.translate(PLAIN)}")
     commands = (Text(text, no_wrap=True, overflow="ignore") for text in said.paste)
-    title = Text(one_line(run.problem.scene.title), style="bold")
     agreement = "" if details else agreement_line(run)
     if not run.plan.compares:
         tables = [_figures(run)]
@@ -60,8 +56,16 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
             tables += ["", _model_errors(run)]
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
-    within = Text(said.within.sentence.translate(PLAIN), style="bold")
-    return Group(title, within, *verdict, next_step, *commands, "", *tables, "", _facts(run))
+    return Group(*first, next_step, *commands, "", *tables, "", _facts(run))
+
+
+def first_lines(title: str, within: str, said: Iterable[tuple[str, str]]) -> "list[Text]":
+    """Title, within what the half-plane is right, and verdicts, each a word or two and why."""
+    from rich.text import Text
+
+    lines = [Text(text, style="bold") for text in (one_line(title), within.translate(PLAIN))]
+    stamps = (((kind, STYLES.get(kind.lower(), "bold")), why) for kind, why in said)
+    return lines + [Text.assemble(stamp, f"  {why.translate(PLAIN)}") for stamp, why in stamps]
 
 
 def cost_summary(run: Run) -> "RenderableType":

@@ -194,7 +194,8 @@ def test_the_verdict_names_what_decides_it(smooth_outcome: Run, errors, kind, sa
 
 
 def test_a_level_that_did_not_converge_is_named_in_few_digits(smooth_outcome: Run):
-    said = headline(unconverged(smooth_outcome, "finite_element"))
-    assert said.kind == "not converged"
+    failed = unconverged(smooth_outcome, "finite_element")
+    said = headline(failed)
+    assert said.kind == "not converged" and headline(failed) is said  # once a run
     pitch = f"{1e6 * smooth_outcome.runs['finite_element'].finest.grid.pitch:#.3g}".rstrip(".")
     assert f"(finite elements, pressure elements of {pitch} µm)" in said.within.sentence
