@@ -81,8 +81,9 @@ class RoundedPunch:
         s = np.sqrt(np.maximum(e**2 - opening, 0.0))
         chi = np.arctan2(e, b)
         # Both are infinite where their divisor vanishes, and are multiplied with it there.
-        across = np.arcsinh(_ratio(s * e, x + b))
-        corner = np.arcsinh(_ratio(np.minimum(s, e), np.sqrt(np.abs(opening))))
+        nothing, root = np.zeros_like(s), np.sqrt(np.abs(opening))
+        across = np.arcsinh(np.divide(s * e, x + b, out=nothing.copy(), where=x + b > 0.0))
+        corner = np.arcsinh(np.divide(np.minimum(s, e), root, out=nothing, where=root > 0.0))
         beyond_flat = chi * s - x * across + beyond * corner
         middle, product = np.maximum(s, e), s * e / (1.0 + b * x)
         on_flat = (
@@ -114,9 +115,3 @@ def rounded_punch_from_half_width(
     shape = a**2 * angle_minus_sine(np.arctan2(e, half_flat)) + e**3 / (a + half_flat)
     load = 0.5 * combined_modulus / corner_radius * float(shape)
     return RoundedPunch(half_flat, corner_radius, combined_modulus, load, half_width, e)
-
-
-def _ratio(numerator: np.ndarray, divisor: np.ndarray) -> np.ndarray:
-    """The quotient, and 0 where the divisor is."""
-    divides = divisor > 0.0
-    return np.where(divides, numerator / np.where(divides, divisor, 1.0), 0.0)

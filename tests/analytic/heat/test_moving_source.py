@@ -13,7 +13,8 @@ from analytic.material import ThermalMaterial
 
 JAEGER = reference("h_heat")["jaeger"]
 UNIT = ThermalMaterial(1.0, 1.0, 1.0)
-EULER = 0.5772156649015329
+X = np.arange(-300, 301) / 100.0
+HAT = np.maximum(1.0 - np.abs(X), 0.0)
 
 
 @pytest.mark.parametrize("row", JAEGER, ids=lambda row: f"Pe {row['Pe_Vl_over_2kappa']}")
@@ -64,20 +65,16 @@ def line_source(x, z, peclet):
 
 @pytest.mark.parametrize("peclet", [1e-3, 0.1, -0.1, 10.0, 1000.0])
 def test_any_flux(peclet):
-    x = np.arange(-300, 301) / 100.0
-    flux = np.maximum(1.0 - np.abs(x), 0.0)
-    rise = HeatedSurface(UNIT, len(x), 0.01, -2.0 * peclet).rise(flux)
+    rise = HeatedSurface(UNIT, len(X), 0.01, -2.0 * peclet).rise(HAT)
     for i in (0, 200, 280, 300, 310, 350, 500):
-        assert rise[i] == pytest.approx(line_source(x[i], 0.0, peclet), abs=1e-12)
+        assert rise[i] == pytest.approx(line_source(X[i], 0.0, peclet), abs=1e-12)
 
 
 @pytest.mark.parametrize("depth", [1e-5, 1e-3, 0.1, 1.0])
 def test_below_the_surface(depth):
-    x = np.arange(-300, 301) / 100.0
-    flux = np.maximum(1.0 - np.abs(x), 0.0)
-    (rise,) = HeatedSurface(UNIT, len(x), 0.01, -10.0).field(flux, [depth])
+    (rise,) = HeatedSurface(UNIT, len(X), 0.01, -10.0).field(HAT, [depth])
     for i in (150, 250, 300, 320):
-        assert rise[i] == pytest.approx(line_source(x[i], depth, 5.0), abs=1e-11)
+        assert rise[i] == pytest.approx(line_source(X[i], depth, 5.0), abs=1e-11)
 
 
 def test_reversed_motion_mirrors():
@@ -89,7 +86,7 @@ def test_reversed_motion_mirrors():
 def test_slow_motion_is_a_datum_for_rest():
     """A slow source is one at rest with its datum at 4 kappa / (V e^gamma)."""
     speed, flux = 1e-7, np.array([0.0, 1.0, 2.0, 0.5, 0.0])
-    reach = 4.0 / (speed * np.exp(EULER))
+    reach = 4.0 / (speed * np.exp(np.euler_gamma))
     slow = HeatedSurface(UNIT, 5, 0.5, speed).rise(flux)
     rest = HeatedSurface(UNIT, 5, 0.5, 0.0, reach).rise(flux)
     assert slow == pytest.approx(rest, rel=1e-6)

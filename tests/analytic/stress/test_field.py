@@ -30,21 +30,24 @@ def worst(field, friction: float, nodes, pressure, element: str) -> float:
         ((2.0, 4.0), 1),  # beside them
         ((-4.0, -1.0), 4),
         ((0.0, 0.0), 1),  # one column
+        ((-1.0, 1.5), 3),
+        ((1.0, 2.0), 3),
+        # kernels that hold both sides of an element, and those of windows beside all of the load
+        ((-0.3, 0.4), 1),
+        ((-0.4, 9.0), 1),
+        ((-30.0, 0.2), 1),
+        ((1.0, 1.3), 1),
+        ((40.0, 41.0), 1),
+        ((-9.0, -0.469), 1),
     ],
 )
-@pytest.mark.parametrize("friction", [0.0, 0.35])
-def test_field_equals_direct_sum_of_hats(x_range, subdivisions, friction):
-    field = friction_field(NODES, PRESSURE, x_range, LEVELS, subdivisions)
-    assert worst(field, friction, NODES, PRESSURE, "hat") < 2e-14
-
-
-@pytest.mark.parametrize("subdivisions", [1, 3])
-@pytest.mark.parametrize("x_range", [(-1.0, 1.5), (1.0, 2.0)])
-def test_field_equals_direct_sum_of_strips(x_range, subdivisions):
-    field = friction_field(NODES, PRESSURE, x_range, LEVELS, subdivisions, "strip")
-    assert worst(field, 0.35, NODES, PRESSURE, "strip") < 2e-14
-    field = friction_field(NODES, PRESSURE, x_range, LEVELS[1:3], 2, "strip")
-    assert worst(field, 0.0, NODES, PRESSURE, "strip") < 2e-14
+@pytest.mark.parametrize("element", ["hat", "strip"])
+def test_field_equals_direct_sum(x_range, subdivisions, element):
+    """Of strips not where one ends on the surface."""
+    levels = LEVELS[1:] if element == "strip" and subdivisions % 2 == 0 else LEVELS
+    field = friction_field(NODES, PRESSURE, x_range, levels, subdivisions, element)
+    for friction in (0.0, 0.35):
+        assert worst(field, friction, NODES, PRESSURE, element) < 2e-14
 
 
 def test_field_on_a_grid_of_rounded_places():
@@ -139,14 +142,3 @@ def test_a_stride_keeps_some_of_the_same_points(stride):
     some = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=stride)
     assert np.array_equal(some.x, every.x[::stride])
     assert np.array_equal(some.at(0.2).stress.sx, every.at(0.2).stress.sx[:, ::stride])
-
-
-@pytest.mark.parametrize("element", ["hat", "strip"])
-@pytest.mark.parametrize(
-    "x_range", [(-0.3, 0.4), (-0.4, 9.0), (-30.0, 0.2), (1.0, 1.3), (40.0, 41.0), (-9.0, -0.469)]
-)
-def test_window_anywhere_about_the_load(x_range, element):
-    """Kernels that hold both sides of an element, and those of windows beside all of the load."""
-    levels = np.array([1e-4, 0.02, 0.7])
-    field = friction_field(NODES, PRESSURE, x_range, levels, 1, element)
-    assert worst(field, 0.35, NODES, PRESSURE, element) < 2e-14
