@@ -42,17 +42,12 @@ def test_figures_belong_to_the_pressure(case: ExactContact):
     inner += [-k for k in inner]
     # x = middle + half cos t takes the singularity from the edges
     breaks = sorted({0.0, np.pi, *(float(np.arccos((k - middle) / half)) for k in inner)})
-    load = sum(
-        quad(
-            lambda t: float(case.pressure(middle + half * np.cos(t))) * half * np.sin(t),
-            start,
-            stop,
-            epsabs=0.0,
-            epsrel=1e-9,
-            limit=200,
-        )[0]
-        for start, stop in pairwise(breaks)
-    )
+
+    def pressed(t):
+        return float(case.pressure(middle + half * np.cos(t))) * half * np.sin(t)
+
+    how = {"epsabs": 0.0, "epsrel": 1e-9, "limit": 200}
+    load = sum(quad(pressed, *ends, **how)[0] for ends in pairwise(breaks))
     assert load == pytest.approx(case.load, rel=1e-7)
     x = np.linspace(left, right, 20003)[1:-1]
     pressure = case.pressure(x)

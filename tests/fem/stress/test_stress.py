@@ -259,16 +259,9 @@ def hydrostatic(height, slope, cells, structured_block, exact_forces):
 def test_uniform_stress_under_a_rough_surface(structured_block, exact_forces):
     """Exact but for the shape of quadratic edges, off by the third order."""
     assert hydrostatic(None, np.zeros_like, 8, structured_block, exact_forces) < 1e-8
-    errors = [
-        hydrostatic(
-            lambda x: 0.05 * np.cos(3 * x),
-            lambda x: -0.15 * np.sin(3 * x),
-            cells,
-            structured_block,
-            exact_forces,
-        )
-        for cells in (16, 32, 64)
-    ]
+    wave = lambda x: 0.05 * np.cos(3 * x), lambda x: -0.15 * np.sin(3 * x)
+    made = structured_block, exact_forces
+    errors = [hydrostatic(*wave, cells, *made) for cells in (16, 32, 64)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert 1e-6 < errors[-1] < 1e-4
     assert np.all(np.abs(orders - 3.0) < 0.3), orders
@@ -295,12 +288,8 @@ def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face(structured_
     at, x = body.surface.point, body.surface.x
     inside = np.abs(x) < 0.49
     normal = np.array([-0.2, -1.0])  # out of the body, times the face's length per x
-    force = np.column_stack(
-        [
-            nodal.sx[at] * normal[0] + nodal.txz[at] * normal[1],
-            nodal.txz[at] * normal[0] + nodal.sz[at] * normal[1],
-        ]
-    )
+    along = nodal.sx[at] * normal[0] + nodal.txz[at] * normal[1]
+    force = np.column_stack([along, nodal.txz[at] * normal[0] + nodal.sz[at] * normal[1]])
     expected = pressure_at(x)[:, None] * [0.1 + 0.25, 1.0 - 0.25 * 0.1]
     np.testing.assert_allclose(force[inside], expected[inside], atol=1e-12)
 
