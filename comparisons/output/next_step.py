@@ -276,18 +276,16 @@ def _moduli(section: ElasticSection, solid: Solid) -> list[str]:
 def _like(section: ElasticSection) -> Solid | None:
     """A measured solid of the class that a body may be of."""
     kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
-    measured = (solid for solid in measured_solids(*kinds) if solid.kind in kinds)
-    return next(measured, None)
+    return next((solid for solid in measured_solids(*kinds) if solid.kind in kinds), None)
 
 
 def _unknown_law(run: Run) -> str:
     """Why the law of elasticity is not known better."""
     bodies = _bodies_of_open_law(run)
-    unmeasured = dict.fromkeys(part.solid for part in bodies.values())
-    if None in unmeasured:
+    named = dict.fromkeys(part.solid for part in bodies.values())
+    if None in named:
         return f"{' and '.join(bodies)}.material would narrow it, where it is known"
-    solids_named = " or ".join(filter(None, unmeasured))
-    return f"no third-order constants of {solids_named} are published" if unmeasured else ""
+    return f"no third-order constants of {' or '.join(named)} are published" if named else ""
 
 
 def _finer_levels(run: Run) -> Iterator[Offer]:
