@@ -167,9 +167,11 @@ class _Surface:
         reach = carried + np.sqrt(2.0 * radius * np.ptp(profile.height))
         self._span(reach)
         places = positions - self.origin
-        middles = self.whole.x
+        middles, samples = self.whole.x, profile.x - self.origin
         swept = (middles >= places.min() - reach) & (middles <= places.max() + reach)
-        self.x = _joined(profile.x - self.origin, middles[swept], NEAR * pitch)
+        right = np.clip(np.searchsorted(samples, middles), 1, len(samples) - 1)
+        apart = np.minimum(np.abs(middles - samples[right - 1]), np.abs(samples[right] - middles))
+        self.x = np.union1d(samples, middles[swept & (apart > NEAR * pitch)])
         self.widths = trapezoid_widths(self.x)
         self.height = profile.spline()(np.clip(self.x + self.origin, *profile.x[[0, -1]]))
         self.lowering = np.zeros_like(self.x)
@@ -238,10 +240,3 @@ class _Surface:
         low = np.searchsorted(self.x, start - slack) - beyond
         high = np.searchsorted(self.x, stop + slack) + beyond
         return slice(max(low, 0), high)
-
-
-def _joined(samples: np.ndarray, middles: np.ndarray, near: float) -> np.ndarray:
-    """Ascending places of the samples and of those `middles` farther than `near` from any."""
-    right = np.clip(np.searchsorted(samples, middles), 1, len(samples) - 1)
-    apart = np.minimum(np.abs(middles - samples[right - 1]), np.abs(samples[right] - middles))
-    return np.union1d(samples, middles[apart > near])

@@ -173,9 +173,8 @@ def westergaard_extremes(
 
         def fallen(place: np.ndarray, size: Callable = size, unit: float = unit) -> float:
             below = contact.wavelength * place[0], contact.wavelength * max(place[1], 0.0)
-            return (
-                -float(size(westergaard_stress(contact, *below, poissons_ratio, friction))) / unit
-            )
+            there = westergaard_stress(contact, *below, poissons_ratio, friction)
+            return -float(size(there)) / unit
 
         start = np.array([x[column], z[row]]) / contact.wavelength
         best = minimize(
