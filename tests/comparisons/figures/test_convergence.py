@@ -4,14 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from hats import pressed
 from scenes import QUICK, problem
 
-from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
 from comparisons.figures.convergence import IRREGULAR, LEVELS, REGULAR, TWO_GRIDS, grid_convergence
 from comparisons.studies.contact import formal_order
 
@@ -123,6 +121,7 @@ def test_uncertainty_scales_with_the_figure():
 def test_stated_uncertainty_covers_the_error_of_hertz():
     """Peak pressure and contact length on shifted grids, against the exact values."""
     hertz = hertz_from_load(3.55e6, 7.5706e-3, 115.385e9)
+    smooth, load = roller_gap(hertz.radius), hertz.load_per_length
     covered, widths = [], []
     for offset in np.linspace(0.0, 0.9, 10):
         peaks, lengths = [], []
@@ -130,11 +129,8 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
             reach = 1.5 * hertz.half_width
             grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
             shift = offset * 2.0 * reach / 360
-            solution = solve_contact(
-                HalfPlane(grid.count, grid.pitch, hertz.combined_modulus),
-                grid.hat_integrals(lambda x, shift=shift: roller_gap(hertz.radius)(x - shift)),
-                grid.weights,
-                Constraints(load=hertz.load_per_length),
+            solution = pressed(
+                grid, hertz.combined_modulus, lambda x, s=shift: smooth(x - s), load=load
             )
             peaks.append(solution.pressure.max())
             lengths.append(np.ptp(contact_patches(grid.x, solution.pressure, solution.gap)))
