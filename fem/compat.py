@@ -229,10 +229,3 @@ def real_number(value: float) -> np.floating:
     from petsc4py import PETSc
 
     return PETSc.ScalarType(value)
-
-
-def assembled_vector(linear: "Form") -> np.ndarray:
-    """Values of a compiled linear form: dolfinx frees its vector."""
-    from dolfinx import fem
-
-    return fem.assemble_vector(linear).array.copy()

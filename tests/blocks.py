@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic.material import Material
-from meshes.block import BlockSpec
+from meshes.block import BlockMesh, BlockSpec
 
 BLOCK = BlockSpec(20.0, 40.0, np.array([[-1.5, 1.5]]), 0.05)
 PATCHES = np.array([[-1.5, -1.0], [0.3, 1.1]])
@@ -71,6 +71,12 @@ def of_kinds(*kinds: str) -> pytest.MarkDecorator:
     """One test for the mesh of each of these kinds of blocks."""
     names = [name for kind in kinds for name in SPECS[kind]]
     return pytest.mark.parametrize("mesh", names, indirect=True)
+
+
+def top_vertices(mesh: BlockMesh) -> np.ndarray:
+    """Ascending x (k,) [m] of the vertices on z = 0."""
+    vertices = np.unique(mesh.triangles[:, :3])
+    return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
 
 
 def hooke(material: Material, exx, ezz, gxz) -> tuple:

@@ -1,13 +1,71 @@
-"""A body pressed from a guessed pressure alone, at finite strains or by the linear theory."""
+"""A body pressed from a guessed pressure alone, at finite strains or by the linear theory; and what
+neo-Hookean energy it stores."""
 
 import numpy as np
+from flow_energy import AccountedHistory
 
-from fem.body.elasticity import ElasticBody
+from analytic.exact.hertz import hertz_from_peak_pressure
+from analytic.material import Material
+from analytic.material.hardening import Hardening
+from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
 from fem.contact.rigid_roller import Roller
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
+from fem.nonlinear.plasticity import ElasticPlastic
+from fem.nonlinear.press_plastic import press_plastically
+
+STEEL = Material(200.0, 0.3)  # over the yield stress
+
+
+class MetalScene:
+    """A roller that an elastic body would meet on half-width 1 under the peak pressure `ratio` Y.
+
+    It is rigid, or `elastic` and of the body's material. A coating of the body does not flow.
+    """
+
+    def __init__(
+        self, mesh, ratio, edges, reach=1.6, hardening=0.0, unit=1.0, elastic=False, **how
+    ):
+        material = Material(STEEL.youngs_modulus * unit, STEEL.poissons_ratio)
+        modulus = material.plane_strain_modulus / (1 + elastic)
+        self.elastic = elastic
+        self.metal = ElasticPlastic(material, Hardening(unit, hardening * unit))
+        self.hertz = hertz_from_peak_pressure(ratio * unit, 0.5 * modulus / (ratio * unit), modulus)
+        body = elastic_body(mesh, material, **{"support": Support("bonded", "fixed")} | how)
+        pitch = 1.0 / edges
+        hats = pitch * np.arange(-round(reach * edges) - 1, round(reach * edges) + 2)
+        self.x, self.pressed = hats[1:-1], FiniteElementCompliance(body, hats)
+        self.weights = np.full(len(self.x), pitch)
+        self.gap = pitch * (self.x**2 + pitch**2 / 6.0) / (2.0 * self.hertz.radius)
+
+    def press(self, loads, friction=0.0, travel=1.0):
+        guess, roller = self.hertz.pressure(self.x), self.pressed if self.elastic else None
+        problem = self.pressed, self.metal, self.gap, self.weights
+        return press_plastically(*problem, self.loads(loads), guess, friction, roller, travel)
+
+    def accounted(self, loads, friction, travel):
+        """The history of loads with its energies, and the contacts."""
+        guess, problem = self.hertz.pressure(self.x), (self.pressed, self.metal, self.gap)
+        way = AccountedHistory(*problem, self.weights, guess, friction, None, travel)
+        return way, way.through(self.loads(loads))
+
+    def loads(self, parts):
+        return [part * self.hertz.load_per_length for part in parts]
+
+
+def neo_hookean_energy(body: ElasticBody, displacement: np.ndarray, points: int = 4) -> float:
+    """Strain energy [J/m] of a body without a coating under a displacement (n, 2) [m], by a
+    quadrature of its own: W = mu/2 (tr F'F - 2 - 2 ln J) + lambda/2 (ln J)^2."""
+    at, share = collapsed_gauss(points)
+    corner, mu = body.points[body.mesh.triangles], body.material.shear_modulus
+    f = np.eye(2) + gradients(corner, displacement[body.elements], at)
+    log = np.log(np.linalg.det(f))
+    density = 0.5 * mu * ((f**2).sum(axis=(2, 3)) - 2.0 - 2.0 * log)
+    density += 0.5 * body.lame[0] * log**2
+    return float((density * np.linalg.det(jacobians(corner, at)) * share).sum())
 
 
 def press_finitely(

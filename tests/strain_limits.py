@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import bisect
 
 from analytic.material import Law, Material
 from analytic.material.third_order import is_elliptic
@@ -25,18 +26,15 @@ def strain_limit(law: Law, material: Material) -> StrainLimit:
     direction in the plane is no longer positive and a uniform strain falls apart into bands."""
 
     def limit(stretches: Callable[[float], tuple[float, float]]) -> float:
+        def is_stable(strain: np.ndarray) -> np.ndarray:
+            return is_elliptic(law, material, *stretches(strain))
+
         strains = np.arange(SMALLEST_STEP, 1.0, SMALLEST_STEP)
-        lost = np.flatnonzero(~is_elliptic(law, material, *stretches(strains)))
+        lost = np.flatnonzero(~is_stable(strains))
         if not lost.size:
             return np.inf
-        low, high = strains[lost[0]] - SMALLEST_STEP, strains[lost[0]]
-        while high - low > 1e-12:
-            middle = 0.5 * (low + high)
-            if is_elliptic(law, material, *stretches(np.array([middle])))[0]:
-                low = middle
-            else:
-                high = middle
-        return float(high)
+        ends = strains[lost[0]] - SMALLEST_STEP, strains[lost[0]]
+        return bisect(lambda strain: is_stable(np.array([strain]))[0] - 0.5, *ends, xtol=1e-12)
 
     return StrainLimit(
         compression=limit(lambda e: (1.0 - e, np.ones_like(e))),

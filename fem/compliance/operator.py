@@ -59,7 +59,8 @@ class FiniteElementCompliance:
 
     def load(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] of a pressure (count,) [Pa] and its sliding traction."""
-        return self._load(self._force(pressure, friction))
+        force = self.normal @ pressure
+        return self._load(force + friction * (self.tangential @ pressure) if friction else force)
 
     def weighted(self, displacement: np.ndarray) -> np.ndarray:
         """B^T u (count,) [m^2] of a displacement (n, 2) [m]."""
@@ -81,11 +82,6 @@ class FiniteElementCompliance:
             moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
             rows.append((self._means @ moved).T)
         return np.vstack(rows).T
-
-    def _force(self, pressure: np.ndarray, friction: float) -> np.ndarray:
-        """Forces (2k,) [N/m] on the surface's nodes under a pressure (count,) [Pa]."""
-        force = self.normal @ pressure
-        return force + friction * (self.tangential @ pressure) if friction else force
 
     def _load(self, force: np.ndarray) -> np.ndarray:
         """Forces (n, 2) on all nodes from those (2k,) on the surface's."""

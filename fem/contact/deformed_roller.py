@@ -158,7 +158,10 @@ class PairContact:
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
-        surface, on, x, place = self._under_hats(displacement)
+        surface, cuts, _ = self._surfaces(displacement)
+        on = HatsOnSurface(self._body, self._hats, self._count, cuts)
+        place = (self._undeformed + displacement).ravel()
+        x = on.x @ place
         rise, slope, bend = surface(x)
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
 
@@ -191,15 +194,6 @@ class PairContact:
         on = surface.edge(x.ravel())
         opposite = [array.reshape(x.shape) for array in surface(x.ravel(), on)]
         return under, (x, z), on, opposite, deformed, surface
-
-    def _under_hats(
-        self, displacement: np.ndarray
-    ) -> tuple[DeformedSurface, HatsOnSurface, np.ndarray, np.ndarray]:
-        """The roller's surface, points under hats, their x (q,) [m], and places (2n,) of nodes."""
-        surface, cuts, _ = self._surfaces(displacement)
-        on = HatsOnSurface(self._body, self._hats, self._count, cuts)
-        place = (self._undeformed + displacement).ravel()
-        return surface, on, on.x @ place, place
 
     def _surfaces(
         self, displacement: np.ndarray

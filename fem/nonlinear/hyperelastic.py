@@ -72,9 +72,11 @@ class HyperelasticBody:
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
         """The internal forces alone. Raises FemError where they are not finite."""
+        from dolfinx import fem
+
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
-        force[self._component] = compat.assembled_vector(self._work)
+        force[self._component] = fem.assemble_vector(self._work).array.copy()
         if not np.isfinite(force).all():
             raise FemError("an element is inverted")
         return self._unit * force.reshape(-1, 2)

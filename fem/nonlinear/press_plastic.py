@@ -1,4 +1,4 @@
-"""A roller pressed on an elastic-plastic body, released, and pressed again.
+"""A roller pressed on an elastic-plastic body, and released.
 
 Each load is reached in increments from the body's last state; as far as nothing flows it is reached
 at once. The contact is on the undeformed surface, as in the linear theory; the roller is rigid or
@@ -62,8 +62,8 @@ MOST_HALVINGS, MOST_SINKING = 6, 200
 ELASTIC_WITHIN = 0.9  # of the load at which flow begins: reached at once
 DOUBT = 2.0  # factor on the load at which flow is expected to begin: beyond it there is none
 
-# Part of the largest load from which the roller is removed, and at which it touches again: less
-# would show the rounding of the residual stresses.
+# Part of the load before from which the roller is removed: less would show the rounding of the
+# residual stresses.
 LAST_TOUCH = 0.01
 
 BALANCE = 1e-10  # residual forces of the released body over the largest of its stresses
@@ -170,7 +170,7 @@ class LoadHistory:
             raise ValueError("the first load must be positive, and none negative")
         history = []
         for load in loads:
-            iterations = self.to(load or min(LAST_TOUCH * max(loads), self.state.load))
+            iterations = self.to(load or LAST_TOUCH * self.state.load)
             if load == 0.0:
                 self.release()
             history.append(self.contact(load, iterations))

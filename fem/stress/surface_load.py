@@ -47,10 +47,8 @@ class SurfaceLoad:
 
     def _bend(self, nodal: np.ndarray) -> np.ndarray:
         """Jumps of the slope of nodal values at the hats' nodes."""
-        slope, periodic = (
-            np.diff(nodal) / np.diff(self.hats),
-            len(self.hats) == len(self.pressure) + 1,
-        )
+        slope = np.diff(nodal) / np.diff(self.hats)
+        periodic = len(self.hats) == len(self.pressure) + 1
         before, after = (slope[-1], slope[0]) if periodic else (0.0, 0.0)
         return np.diff(slope, prepend=before, append=after)
 

@@ -15,6 +15,7 @@ from analytic.material import Material
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.terms import LinearContact, LinearResponse
 from fem.stress.stress import NodalStress, evaluate
 from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
 from meshes.build import build_block
@@ -204,6 +205,9 @@ class HatGrid:
 
     def compliance(self, body: ElasticBody) -> FiniteElementCompliance:
         return FiniteElementCompliance(body, self.hats)
+
+    def linear(self, body: ElasticBody, friction=0.0) -> tuple[LinearResponse, LinearContact]:
+        return LinearResponse(body), LinearContact(self.compliance(body), friction)
 
 
 @pytest.fixture(scope="session")

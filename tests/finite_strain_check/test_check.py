@@ -28,6 +28,16 @@ def smooth(curvature: float, law: str) -> Task:
     return Task(flat, 0.0 * flat, (1.0, 0.3), None, radius, 50.0 * np.pi * peak, 0.0, law)
 
 
+def by_the_project(edges: int, **tables: dict):
+    """The scene of a rigid circular roller, of 2 mm unless another is given, by the project's own
+    elements, so many to Hertz's half-width: posed, solved, and its stresses."""
+    roller = {"radius": 2e-3, "rigid": True} | tables.pop("roller", {})
+    finite = {"deformation": "finite", "roller_shape": "circle"}
+    scene = problem({"roller": roller, "finite_element": finite, "stress": {}} | tables)
+    level = finite_elements(scene, scene.hertz.half_width / edges, fields=True)
+    return scene, level, level.stresses[0]
+
+
 @cache
 def finest(law: str) -> tuple[SurfacePair, State]:
     *_, last = solutions(smooth(0.05, law), (8.0, 4.0), 200.0)
@@ -105,20 +115,15 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     task = replace(smooth(0.2, "neo-hookean"), coating=coating)
     *_, last = solutions(task, (8.0, 4.0), 200.0)
     result, peak = figures(*last), 2.0 * task.load / (100.0 * np.pi)
-    scene = problem(
-        {
-            "roller": {"radius": 500e-6, "rigid": True},
-            "body": {"youngs_modulus": 1e9, "poissons_ratio": body[1]},
-            "coating": {"thickness": 64e-6, "youngs_modulus": 3e9, "poissons_ratio": coating[1]},
-            "load": {"hertz_peak_pressure": 1e9 * peak},
-            "finite_element": {"deformation": "finite", "roller_shape": "circle"},
-            "stress": {},
-        }
+    _, level, stress = by_the_project(
+        32,
+        roller={"radius": 500e-6},
+        body={"youngs_modulus": 1e9, "poissons_ratio": body[1]},
+        coating={"thickness": 64e-6, "youngs_modulus": 3e9, "poissons_ratio": coating[1]},
+        load={"hertz_peak_pressure": 1e9 * peak},
     )
-    level = finite_elements(scene, scene.hertz.half_width / 32.0, fields=True)
     assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=1e-3)
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=5e-3)
-    [stress] = level.stresses
     assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=4e-3)
 
 
@@ -129,17 +134,10 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
 def test_measured_constants_are_those_of_the_projects_own_elements(name, surface):
     """Under a rigid roller, where the law changes the peak by 1 to 3 %."""
     solid = solids()[name]
-    tables = {
-        "roller": {"radius": 2e-3, "rigid": True},
-        "body": {"material": name},
-        "load": {"hertz_peak_pressure": 0.018 * solid.material.youngs_modulus},
-        "finite_element": {"deformation": "finite", "roller_shape": "circle"},
-        "stress": {},
-    }
-    if surface == "waves":
-        wave = {"kind": "sinusoid", "wavelength": 40e-6, "amplitude": 0.05e-6, "length": 1e-3}
-        tables |= {"profile": wave}
-    scene = problem(tables)
+    load = {"hertz_peak_pressure": 0.018 * solid.material.youngs_modulus}
+    wave = {"kind": "sinusoid", "wavelength": 40e-6, "amplitude": 0.05e-6, "length": 1e-3}
+    profile = {"profile": wave} if surface == "waves" else {}
+    scene, level, stress = by_the_project(48, body={"material": name}, load=load, **profile)
     ell, m, _ = solid.law.murnaghan
     law = ell / solid.material.shear_modulus, m / solid.material.shear_modulus
     radius, load = 2000.0, scene.hertz.load_per_length / 1e3
@@ -148,13 +146,11 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name, surface
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
     result = cases.solved(task, (2.0, 1.0))[-1]
-    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(1e9 * result.peak, rel=2e-3)
     assert level.contact_length == pytest.approx(
         1e-6 * result.deformed_length, rel=1.5e-2
     )  # an element at each end
-    [stress] = level.stresses
     assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=6e-3)
 
 
@@ -182,22 +178,15 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
 
 def test_strong_friction_is_those_of_the_projects_own_elements():
     """Friction of 0.5, which on tilted tangents bears 0.2 % of the load: peak, length and txz."""
-    tables = {
-        "roller": {"radius": 2e-3, "rigid": True},
-        "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"},
-        "load": {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.5},
-        "finite_element": {"deformation": "finite", "roller_shape": "circle"},
-        "stress": {},
-    }
-    scene = problem(tables)
+    body = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"}
+    hertz = {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.5}
+    scene, level, stress = by_the_project(48, body=body, load=hertz)
     load = scene.hertz.load_per_length / 1e3
     x = np.linspace(-500.0, 500.0, 101)
     result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (2.0, 1.0))[-1]
-    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
     assert level.solution.load == pytest.approx(scene.hertz.load_per_length, rel=1e-6)
     assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=3e-4)
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=3e-3)
-    [stress] = level.stresses
     assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
 
 
@@ -211,19 +200,11 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
     result = cases.solved(task, (4.0, 2.0))[-1]
     hertz = {"hertz_peak_pressure": 1e9 * peak, "friction": 0.2}
     body = {"youngs_modulus": 1e9, "poissons_ratio": 0.3, "law": "neo-hookean"}
-    scene = problem(
-        {
-            "roller": {"radius": 100e-6 / curvature, "rigid": True},
-            "body": body | {"hardness": 1e9 * share * peak},
-            "load": hertz,
-            "finite_element": {"deformation": "finite", "roller_shape": "circle"},
-            "stress": {},
-        }
-    )
-    level = finite_elements(scene, scene.hertz.half_width / 48.0, fields=True)
+    body["hardness"] = 1e9 * share * peak
+    roller = {"radius": 100e-6 / curvature}
+    _, level, stress = by_the_project(48, roller=roller, body=body, load=hertz)
     assert level.solution.converged
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=1e-3)
-    [stress] = level.stresses
     assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
     assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=4e-3)
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import WINDOW, of_kinds
+from blocks import WINDOW, of_kinds, top_vertices
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
@@ -18,11 +18,6 @@ def boundary_edges(mesh):
     edges, edge_of = unique_edges(mesh.triangles[:, :3])
     uses = np.bincount(edge_of.ravel(), minlength=len(edges))
     return edges, uses
-
-
-def top_vertices(mesh):
-    vertices = np.unique(mesh.triangles[:, :3])
-    return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
 
 
 @every

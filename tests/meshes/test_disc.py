@@ -118,13 +118,6 @@ def test_what_is_not_bent_or_rounded(disc, flat):
             rounded(mesh, radius)
 
 
-def test_scales_with_the_unit_of_length(flat, disc):
-    small = build_block(BlockSpec(1.2e-3, 1e-3, np.array([[-2e-4, 2e-4]]), 2e-5))
-    assert real_points(bent(small, 1e-3 * RADIUS)) == pytest.approx(
-        1e-3 * real_points(disc), abs=1e-15
-    )
-
-
 def test_rounded_about_the_contact():
     """Up to an arc about the contact, between rim and rim; rays divide the angle alike."""
     flat = build_block(BlockSpec(1.6, 1.6, np.array([[-0.2, 0.2]]), 0.02, 0.2))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import BLOCK, GRADED, SPECS, of_kinds
+from blocks import BLOCK, GRADED, SPECS, of_kinds, top_vertices
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
@@ -14,7 +14,6 @@ from meshes.size_law import (
     largest_size,
     local_edges,
     own_vertices,
-    point_size,
     surface_edge,
     wanted_size,
 )
@@ -87,14 +86,9 @@ def test_interface_outside_the_block_is_refused(interface):
         build_block(replace(BLOCK, interface=interface))
 
 
-def on_top(mesh):
-    vertices = np.unique(mesh.triangles[:, :3])
-    return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
-
-
 @of_kinds("own vertices")
 def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
-    vertices, x = mesh.spec.vertices, on_top(mesh)
+    vertices, x = mesh.spec.vertices, top_vertices(mesh)
     inside = x[(x >= vertices[0]) & (x <= vertices[-1])]
     assert np.isin(vertices, inside).all()
     if mesh.spec.window is None and mesh.spec.interface is None and mesh.spec.depth > 1.0:
@@ -110,7 +104,7 @@ def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
 
 @of_kinds("own vertices")
 def test_elements_at_the_surface_have_the_size_of_its_edges(mesh):
-    corner = mesh.points[mesh.triangles[:, :3]]
+    corner = corners(mesh)
     first, last = mesh.spec.vertices[[0, -1]]
     among = (corner[..., 0] >= first).all(axis=1) & (corner[..., 0] <= last).all(axis=1)
     corner = corner[among & ((corner[..., 1] == 0.0).sum(axis=1) == 2)]
@@ -128,17 +122,6 @@ def test_size_law_follows_the_edges_down_and_beside_them():
     assert wanted_size(spec, 0.0, 2.0) == pytest.approx(edges[len(edges) // 2] + 0.4)
     beyond = np.array([GRADED[-1] + 3.0, 4.0])
     assert wanted_size(spec, *beyond) == pytest.approx(edges[-1] + 0.2 * 5.0)
-
-
-@pytest.mark.parametrize("spec", SPECS["own vertices"].values(), ids=SPECS["own vertices"])
-def test_both_forms_of_the_law_agree(spec):
-    rng = np.random.default_rng(0)
-    x = rng.choice([1.0, 0.1], 500) * rng.uniform(-spec.half_width, spec.half_width, 500)
-    x = np.concatenate([x, spec.vertices])
-    z = np.concatenate([spec.depth * rng.random(500) ** 3, np.zeros(len(spec.vertices))])
-    size = point_size(spec)
-    one_by_one = [size(*point) for point in zip(x.tolist(), z.tolist(), strict=True)]
-    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=1e-12)
 
 
 def test_edges_are_cut_into_the_fewest_parts_that_fit():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import SPECS
 
 from meshes.block import BlockSpec, MeshError
 from meshes.size_law import (
@@ -34,14 +35,16 @@ def test_distance_is_that_to_the_nearest_interval():
     assert uncapped_size(PLAIN, x, z) == pytest.approx(0.25 + 0.2 * distance, rel=1e-14)
 
 
-@pytest.mark.parametrize("spec", [PLAIN, WINDOWED, THIN])
+@pytest.mark.parametrize("spec", [PLAIN, WINDOWED, THIN, *SPECS["own vertices"].values()])
 def test_both_forms_agree(spec):
     x, z = random_points(500, spec)
-    x = np.concatenate([x, INTERVALS.ravel(), [-spec.half_width, spec.half_width]])
-    z = np.concatenate([z, np.zeros(INTERVALS.size + 2)])
+    ends = INTERVALS.ravel() if spec.vertices is None else spec.vertices
+    x = np.concatenate([x, ends, [-spec.half_width, spec.half_width]])
+    z = np.concatenate([z, np.zeros(len(ends) + 2)])
     size = point_size(spec)
     one_by_one = [size(*point) for point in zip(x.tolist(), z.tolist(), strict=True)]
-    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=1e-14)
+    accuracy = 1e-14 if spec.vertices is None else 1e-12
+    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=accuracy)
 
 
 @pytest.mark.parametrize("spec", [PLAIN, WINDOWED])

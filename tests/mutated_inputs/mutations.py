@@ -52,14 +52,7 @@ WORDS = (
     *('"line"', '"arc"', '"mean"', '"bridge"', '"murnaghan"', '"murnagham"', '"hencky"', '"."'),
     *("[3, 16000000]", "[3, 3]", "[1e3, 3]", "[0.0, 0.0]", "[0.1, 0.2, 0.3]", '["1 um", "2 um"]'),
     *('{l = 1, m = "2", n = 3}', "[[0, 0], [1e-3, 1e-3]]", "[[0, 0], [0, 0]]", "{a = {b = 1}}"),
-    *(
-        '"' + "x" * 5000 + '"',
-        '"self-affine"',
-        '"sinusoid"',
-        '"turned"',
-        '"ground"',
-        '"half-plane"',
-    ),
+    *(f'"{"x" * 5000}"', '"self-affine"', '"sinusoid"', '"turned"', '"ground"', '"half-plane"'),
     *('"1.000.000 Pa"', '"1,5 mm"', '"8.2mm"', '"８.２ mm"', "'''\ntwo\nlines'''", '"bonded"'),
 )
 FIELDS = tuple(

@@ -39,10 +39,11 @@ def test_matrix_is_symmetric_and_positive_definite(fine):
     assert np.linalg.eigvalsh(matrix).min() > 0.0
 
 
-def test_apply_is_the_matrix(fine):
-    matrix = fine.matrix()
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_apply_is_the_matrix(fine, friction):
     pressure = np.random.default_rng(5).uniform(size=COUNT)
-    np.testing.assert_allclose(fine.apply(pressure), matrix @ pressure, rtol=1e-11)
+    moved = fine.matrix(friction) @ pressure
+    np.testing.assert_allclose(fine.apply(pressure, friction), moved, rtol=1e-11)
 
 
 def error_of(matrix, material):

@@ -7,14 +7,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from pressed_bodies import press_finitely
+from pressed_bodies import neo_hookean_energy, press_finitely
 from scenes import hat_nodes
 
 from analytic.contact.patches import contact_patches
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.body.surface import hat_forces
-from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.deformed_roller import DeformedSurface, PairContact
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
@@ -150,17 +149,6 @@ def body(edge, radius=None, modulus=1.0, aside=0.0):
     return elastic_body(mesh, Material(modulus, POISSON), Support("bonded", "fixed"))
 
 
-def energy(body, displacement):
-    """The neo-Hookean strain energy, over Young's modulus 1."""
-    at, share = collapsed_gauss(4)
-    corner = body.points[body.mesh.triangles]
-    f = np.eye(2) + gradients(corner, displacement[body.elements], at)
-    log, mu = np.log(np.linalg.det(f)), body.material.shear_modulus
-    density = 0.5 * mu * ((f**2).sum(axis=(2, 3)) - 2.0 - 2.0 * log)
-    density += 0.5 * body.lame[0] * log**2
-    return (density * np.linalg.det(jacobians(corner, at)) * share).sum()
-
-
 class Pressed:
     """Two bodies of a/R = `curvature`: the figures of the rough one."""
 
@@ -272,7 +260,7 @@ class TestPressed:
                 case.rough, case.hats, against, case.state.pressure, approach=approach
             )
             moved = np.split(state.solution.state.displacements[0], [len(case.rough.nodes)])
-            energies.append(sum(map(energy, (case.rough, case.roller), moved)))
+            energies.append(sum(map(neo_hookean_energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 
     @pytest.mark.parametrize("on_rough", [False, True])

@@ -1,8 +1,6 @@
 """Linear bodies by Newton's method and by PETSc's variational inequality: dense solutions, and the
 project's own solver."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from nodal_stress import displacement_under
@@ -13,22 +11,16 @@ from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support
 from fem.body.surface import hat_forces
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
-from fem.contact.terms import LinearContact, LinearResponse
-from fem.contact.variational_inequality import solve_variational_inequality
-
-
-@dataclass(frozen=True)
-class LinearSolution:
-    pressure: np.ndarray
-    approach: float
-    iterations: int
+from fem.contact.variational_inequality import VariationalSolution, solve_variational_inequality
 
 
 def by_newton(grid, bodies, gap, load, hardness=np.inf):
-    pairs = [(LinearResponse(body), LinearContact(grid.compliance(body))) for body in bodies]
+    pairs = [grid.linear(body) for body in bodies]
     start = state_at_rest(pairs, np.ones(grid.count))
     solution = solve_nonlinear_contact(pairs, gap, grid.weights, start, load, hardness=hardness)
-    return LinearSolution(solution.state.pressure, solution.state.approach, solution.iterations)
+    return VariationalSolution(
+        solution.state.pressure, solution.state.approach, solution.iterations
+    )
 
 
 def by_inequality(grid, bodies, gap, load, hardness=np.inf):

@@ -4,16 +4,7 @@ import numpy as np
 import pytest
 
 from fem.contact.nonlinear import RESIDUAL, solve_nonlinear_contact, state_at_rest
-from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
-
-
-@pytest.fixture(scope="module")
-def contact(grid):
-    def of_body(body, friction=0.0):
-        return LinearContact(grid.compliance(body), friction)
-
-    return of_body
 
 
 @pytest.fixture(scope="module")
@@ -26,10 +17,10 @@ def solve(grid):
 
 
 def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
-    grid, block, block_matrix, dense, gap_and_load, contact, solve
+    grid, block, block_matrix, dense, gap_and_load, solve
 ):
     gap, load = gap_and_load
-    bodies = [(LinearResponse(block), contact(block))]
+    bodies = [grid.linear(block)]
     solution = solve(bodies, gap, load=load)
     pressure, approach = dense(block_matrix, gap, grid.weights, load)
     assert solution.state.load == load
@@ -43,19 +34,19 @@ def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
     assert again.state.load == pytest.approx(load, rel=1e-8)
 
 
-def test_the_way_to_a_load_does_not_matter(grid, block, contact, solve):
-    bodies = [(LinearResponse(block), contact(block))]
+def test_the_way_to_a_load_does_not_matter(grid, block, solve):
+    bodies = [grid.linear(block)]
     once = solve(bodies, grid.rough, load=0.6)
     on = solve(bodies, grid.rough, start=once.state, load=0.3)
     back = solve(bodies, grid.rough, load=0.3)
     np.testing.assert_allclose(on.state.pressure, back.state.pressure, atol=1e-9)
 
 
-def test_friction_is_coupled(grid, block, dense, contact, solve):
+def test_friction_is_coupled(grid, block, dense, solve):
     """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
     forces, friction = grid.compliance(block), 0.3
     columns = [forces.apply(unit, friction) for unit in np.eye(grid.count)]
-    sliding = solve([(LinearResponse(block), contact(block, friction))], grid.smooth, load=0.6)
+    sliding = solve([grid.linear(block, friction)], grid.smooth, load=0.6)
     assert sliding.iterations <= 10
     pressure, _ = dense(np.array(columns).T, grid.smooth, grid.weights, 0.6)
     np.testing.assert_allclose(sliding.state.pressure, pressure, atol=1e-9 * pressure.max())
@@ -87,9 +78,13 @@ class Stiffening:
         self.accepted.append(displacement)
 
 
-def test_newton_converges_quadratically(grid, block, contact, solve):
+def stiffening(grid, block, limit=np.inf):
+    return Stiffening(block, 0.02, limit), grid.linear(block)[1]
+
+
+def test_newton_converges_quadratically(grid, block, solve):
     """From one load to the next with every hat touching before and after."""
-    bodies, gap = [(Stiffening(block, 0.02), contact(block))], 0.002 * grid.smooth
+    bodies, gap = [stiffening(grid, block)], 0.002 * grid.smooth
     start = solve(bodies, gap, load=0.6).state
     solution = solve(bodies, gap, start=start, load=1.2)
     history = np.array(solution.residuals[-1])
@@ -100,19 +95,19 @@ def test_newton_converges_quadratically(grid, block, contact, solve):
     assert np.all((orders > 1.7) & (orders < 2.3)), history
 
 
-def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, contact, solve):
+def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, solve):
     """Increments are bisected, each is accepted once, and the end is where it is without limit."""
-    free = solve([(Stiffening(block, 0.02), contact(block))], grid.smooth, load=0.6)
+    free = solve([stiffening(grid, block)], grid.smooth, load=0.6)
     reach = np.abs(free.state.displacements[0]).max()
-    limited = Stiffening(block, 0.02, 1.02 * reach)
-    led = solve([(limited, contact(block))], grid.smooth, load=0.6)
+    limited, contact = stiffening(grid, block, 1.02 * reach)
+    led = solve([(limited, contact)], grid.smooth, load=0.6)
     np.testing.assert_allclose(led.state.pressure, free.state.pressure, atol=1e-7)
     assert len(limited.accepted) == len(led.residuals) > 1
     np.testing.assert_array_equal(limited.accepted[-1], led.state.displacements[0])
 
 
-def test_what_does_not_converge_is_an_error(grid, block, contact, solve):
-    stuck = Stiffening(block, 0.02, 1e-6)
+def test_what_does_not_converge_is_an_error(grid, block, solve):
+    stuck, contact = stiffening(grid, block, 1e-6)
     with pytest.raises(FemError, match=r"did not converge beyond 0 % of the load: .*too far"):
-        solve([(stuck, contact(block))], grid.smooth, load=0.6)
+        solve([(stuck, contact)], grid.smooth, load=0.6)
     assert stuck.accepted == []

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import moved
 from scenes import hat_nodes
 from scipy.integrate import trapezoid
 
@@ -20,11 +21,6 @@ def body(structured_block):
         np.linspace(-1.5, 1.5, 13), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x), seed=2
     )
     return elastic_body(mesh, Material(1.0, 0.3), Support())
-
-
-def some(body, size=1.0):
-    x, z = body.nodes.T
-    return size * np.column_stack([np.sin(2 * x + z), np.cos(x - 2 * z)])
 
 
 PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
@@ -71,7 +67,7 @@ def test_undeformed_it_is_the_linear_theorys(body):
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_derivatives(body, friction):
     contact = CurrentContact(body, HATS, circle(RADIUS), friction)
-    at, step, h = some(body, 0.1), some(body)[::-1], 1e-5
+    at, step, h = moved(body, 0.1, 1), moved(body, 1.0, 2), 1e-5
     terms = contact.at(at, PRESSURE)
     ahead, behind = (contact.at(at + way * h * step, PRESSURE) for way in (1, -1))
     gap = (ahead.gap - behind.gap) / (2 * h)
@@ -86,7 +82,7 @@ def test_derivatives(body, friction):
 
 def test_forces_are_along_the_current_normal_and_tangent(body):
     """In sum: the load is the pressure's, and friction pulls towards +x along the tangent."""
-    friction, at = 0.3, some(body, 0.1)
+    friction, at = 0.3, moved(body, 0.1, 1)
     force = CurrentContact(body, HATS, circle(RADIUS)).at(at, PRESSURE).force @ PRESSURE
     pulled = CurrentContact(body, HATS, circle(RADIUS), friction).at(at, PRESSURE).force @ PRESSURE
     along, down = force.reshape(-1, 2).sum(axis=0)

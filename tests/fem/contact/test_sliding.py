@@ -16,6 +16,7 @@ from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
@@ -182,13 +183,23 @@ def rough_gap(grid: HatGrid, seed: int) -> np.ndarray:
     return grid.hat_integrals(lambda x: x**2 - curve(x))
 
 
+def as_the_whole_matrix(compliance, model, gap, weights, constraints) -> ContactSolution:
+    """The solution by the whole matrix, which the one with a model is, too; friction 0.5."""
+    problem = gap, weights, constraints
+    solution = solve_with_coupled_model(Sliding(compliance, 0.5), model, *problem)
+    direct = solve_coupled(DenseCoupledCompliance(compliance.matrix(0.5)), *problem)
+    assert solution.converged and direct.converged
+    assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
+    return direct
+
+
 class TestRoughProfiles:
     @pytest.mark.parametrize("friction", [0.1, -0.3, 1.0])
     @pytest.mark.parametrize("seed", [1, 2, 3])
     def test_few_steps_to_what_an_independent_solver_finds(self, dense, seed, friction):
         """nu = 0: mu beta of 0.05, 0.15 and 0.5, in as few steps as without friction."""
         grid, compliance = rough_surface(0.0)
-        matrix = whole(compliance, friction)
+        matrix = compliance.matrix(friction)
         gap = rough_gap(grid, seed)
         model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.5 * friction)
         solution = solve_with_coupled_model(
@@ -202,29 +213,9 @@ class TestRoughProfiles:
 
     def test_under_a_hardness_the_whole_matrix_gives_the_same(self):
         grid, compliance = rough_surface(0.0)
-        gap, constraints = rough_gap(grid, 4), Constraints(load=LOAD, hardness=2.0)
         model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.25)
-        solution = solve_with_coupled_model(
-            Sliding(compliance, 0.5), model, gap, grid.weights, constraints
-        )
-        direct = solve_coupled(
-            DenseCoupledCompliance(whole(compliance, 0.5)), gap, grid.weights, constraints
-        )
-        assert solution.converged and direct.converged
-        assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
-
-
-@cache
-def tangential(compliance: FiniteElementCompliance) -> np.ndarray:
-    """Displacements under tractions alone, column by column."""
-    unit = np.eye(compliance.count)
-    columns = [compliance.apply(column, 1.0) - compliance.apply(column) for column in unit]
-    return np.stack(columns, axis=1)
-
-
-def whole(compliance: FiniteElementCompliance, friction: float) -> np.ndarray:
-    """The matrix of a sliding body."""
-    return compliance.matrix() + friction * tangential(compliance)
+        constraints = Constraints(load=LOAD, hardness=2.0)
+        as_the_whole_matrix(compliance, model, rough_gap(grid, 4), grid.weights, constraints)
 
 
 @pytest.mark.parametrize("base", ["bonded", "frictionless"])
@@ -238,18 +229,7 @@ def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
     beta = dundurs_constants(body.material, None)[1]
     modulus = body.material.plane_strain_modulus
     gap = GRID.hat_integrals(lambda x: 0.05 * x**2)
-    constraints = Constraints(load=0.1)
-    solution = solve_with_coupled_model(
-        Sliding(compliance, 0.5),
-        CoupledHalfPlane(GRID.count, GRID.pitch, modulus, 0.5 * beta),
-        gap,
-        GRID.weights,
-        constraints,
-    )
-    direct = solve_coupled(
-        DenseCoupledCompliance(whole(compliance, 0.5)), gap, GRID.weights, constraints
-    )
-    assert direct.converged and direct.residuals.worst < 1e-12
+    model = CoupledHalfPlane(GRID.count, GRID.pitch, modulus, 0.5 * beta)
+    direct = as_the_whole_matrix(compliance, model, gap, GRID.weights, Constraints(load=0.1))
+    assert direct.residuals.worst < 1e-12
     assert 0.5 < np.ptp(contact_patches(GRID.x, direct.pressure, direct.gap)) < 3.0
-    assert solution.converged
-    assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())

@@ -5,74 +5,56 @@ stress."""
 
 import numpy as np
 import pytest
-from pressed_bodies import press_linearly
-from scenes import hat_nodes
+from pressed_bodies import MetalScene, press_linearly
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Law, Material
 from analytic.material.hardening import Hardening
 from fem.body.coating import Coating
 from fem.body.elasticity import Support, elastic_body
-from fem.compliance.operator import FiniteElementCompliance
 from fem.nonlinear import hyperelastic
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.hyperelastic import HyperelasticBody
 from fem.nonlinear.plasticity import ElasticPlastic
-from fem.nonlinear.press_plastic import plastic_fields, press_plastically
+from fem.nonlinear.press_plastic import plastic_fields
 from fem.stress.recovery import stress_nodes
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
 METAL, HARD = Material(200.0, 0.3, Law("hencky")), Material(500.0, 0.2, Law("hencky"))
-EDGE = 1.0 / 6.0
-HATS = hat_nodes(-11 * EDGE, EDGE, 23)
-X = HATS[1:-1]
+REACH = 11.0 / 6.0
 
 
 @pytest.fixture(scope="module")
-def body_of(structured_block, graded):
-    """A block with a row of elements of a thickness at its surface, coated or not."""
+def mesh_of(structured_block, graded):
+    """A block with a row of elements of a thickness at its surface."""
     beyond = graded(4.0, 0.3, 1.4)
     x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
-
-    def made(thickness, coat):
-        mesh = structured_block(x, np.append(0.0, thickness + graded(6.0, 0.14, 1.2)))
-        coating = coat and Coating(coat, thickness)
-        return elastic_body(mesh, METAL, Support("bonded", "fixed"), coating=coating)
-
-    return made
+    return lambda thickness: structured_block(x, np.append(0.0, thickness + graded(6.0, 0.14, 1.2)))
 
 
-def touching(body, ratio, hats=HATS, share=1.0):
-    """Arguments for a rigid roller that Hertz would press with a `ratio` of the yield stress on the
-    uncoated body, or one of as elastic a metal, and the load [N/m]."""
-    modulus = share * METAL.plane_strain_modulus
-    hertz = hertz_from_peak_pressure(ratio, 0.5 * modulus / ratio, modulus)
-    x, pitch = hats[1:-1], hats[1] - hats[0]
-    gap = pitch * (x**2 + pitch**2 / 6.0) / (2.0 * hertz.radius)
-    weights = np.full(len(x), pitch)
-    return FiniteElementCompliance(body, hats), gap, weights, hertz
+def coated(mesh_of, ratio, thickness, coat, **hardening):
+    return MetalScene(
+        *(mesh_of(thickness), ratio, 6, REACH),
+        coating=coat and Coating(coat, thickness),
+        **hardening,
+    )
 
 
-def pressed(body, ratio, metal, friction=0.0, loads=(1.0,), travel=1.0):
-    compliance, gap, weights, hertz = touching(body, ratio)
-    loads, start = [load * hertz.load_per_length for load in loads], hertz.pressure(X)
-    contact = compliance, metal, gap, weights, loads, start, friction
-    return press_plastically(*contact, travel=travel)
-
-
-def test_below_yield_it_is_the_elastic_coating(body_of):
-    body, metal = body_of(0.3, HARD), ElasticPlastic(METAL, Hardening(1e6))
-    _, gap, _, hertz = touching(body, 2.4)
-    wanted = press_linearly(body, HATS, gap, hertz.pressure(X), hertz.load_per_length)
-    _, (contact,) = pressed(body, 2.4, metal)
+def test_below_yield_it_is_the_elastic_coating(mesh_of):
+    scene = coated(mesh_of, 2.4, 0.3, HARD)
+    scene.metal = ElasticPlastic(scene.metal.elastic, Hardening(1e6))
+    body, hats, start = scene.pressed.body, scene.pressed.hats, scene.hertz.pressure(scene.x)
+    wanted = press_linearly(body, hats, scene.gap, start, scene.hertz.load_per_length)
+    _, (contact,) = scene.press([1.0])
     np.testing.assert_allclose(contact.pressure, wanted.pressure, atol=1e-9)
     np.testing.assert_allclose(contact.displacement, wanted.displacements[0], atol=1e-11)
 
 
-def test_at_finite_strain_both_follow_henckys_law(body_of, monkeypatch):
+def test_at_finite_strain_both_follow_henckys_law(mesh_of, monkeypatch):
     monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
-    body = body_of(0.3, HARD)
+    support, coating = Support("bonded", "fixed"), Coating(HARD, 0.3)
+    body = elastic_body(mesh_of(0.3), METAL, support, coating=coating)
     x, z = body.nodes.T
     moved = np.where(body.held, 0.0, 0.05 * np.column_stack([np.sin(x + z), np.cos(x - 2.0 * z)]))
     plastic = FinitePlasticBody(body, ElasticPlastic(METAL, Hardening(1e6)))
@@ -85,15 +67,13 @@ def test_at_finite_strain_both_follow_henckys_law(body_of, monkeypatch):
     assert abs((tangent - exact)[free][:, free]).max() < 1e-11 * abs(exact).max()
 
 
-def test_a_thin_coating_of_the_bodys_own_kind_vanishes(body_of):
+def test_a_thin_coating_of_the_bodys_own_kind_vanishes(mesh_of):
     """It holds what would flow at the surface: the difference falls with its thickness."""
-    metal, left = ElasticPlastic(METAL, Hardening(1.0, 2.0)), []
+    left = []
     for thickness in (0.1, 0.05, 0.025):
-        bare, coated = (
-            pressed(body_of(thickness, coat), 3.0, metal, 0.1)[1][0] for coat in (None, METAL)
-        )
-        off = np.linalg.norm(coated.pressure - bare.pressure) / np.linalg.norm(bare.pressure)
-        left.append(off)
+        scenes = (coated(mesh_of, 3.0, thickness, coat, hardening=2.0) for coat in (None, METAL))
+        bare, under = (scene.press([1.0], 0.1)[1][0].pressure for scene in scenes)
+        left.append(np.linalg.norm(under - bare) / np.linalg.norm(bare))
     orders = np.log2(np.divide(left[:-1], left[1:]))
     assert np.all((orders > 0.8) & (orders < 1.3)), (left, orders)
     assert left[-1] < 0.03
@@ -108,29 +88,23 @@ def test_first_flow_is_below_the_coating():
     most = hertz_stress(hertz_from_peak_pressure(1.0, 0.5, 1.0), x, z, 0.0).von_mises(0.3).max()
     window = (-1.3, 1.3, 1.3, 0.06)
     spec = BlockSpec(300.0, 300.0, np.array([[-1.3, 1.3]]), 0.1, 0.3, window, interface=THICKNESS)
-    body = elastic_body(
-        build_block(spec), METAL, Support("bonded", "fixed"), coating=Coating(METAL, THICKNESS)
-    )
-    hats = hat_nodes(-1.2, 0.1, 25)
+    mesh, coating = build_block(spec), Coating(METAL, THICKNESS)
     for part, flows in ((0.97, False), (1.03, True)):
-        compliance, gap, weights, hertz = touching(body, part / most, hats=hats, share=0.5)
-        plastic, (contact,) = press_plastically(
-            *(compliance, ElasticPlastic(METAL, Hardening(1.0)), gap, weights),
-            *([hertz.load_per_length], hertz.pressure(hats[1:-1]), 0.0, compliance, np.inf),
-        )
+        scene = MetalScene(mesh, part / most, 10, 1.2, elastic=True, coating=coating)
+        plastic, (contact,) = scene.press([1.0], travel=np.inf)
         assert contact.state.equivalent.any() == flows
     below = plastic.points[contact.state.equivalent > 0.0]
     assert THICKNESS < below[:, 1].min() < below[:, 1].max() < THICKNESS + 0.2
     fields = plastic_fields(plastic, contact)
-    nodes = stress_nodes(body)
-    assert len(fields.equivalent_strain) == len(nodes.point) > len(body.points)
+    nodes = stress_nodes(plastic.body)
+    assert len(fields.equivalent_strain) == len(nodes.point) > len(mesh.points)
 
 
-def test_work_is_elastic_and_plastic(body_of):
+def test_work_is_elastic_and_plastic(mesh_of):
     """Of the load on the approach, over increments of a frictionless contact."""
-    body, rise = body_of(0.3, HARD), 2.0
-    metal, loads = ElasticPlastic(METAL, Hardening(1.0, rise)), np.linspace(0.0, 1.0, 17)[1:]
-    plastic, history = pressed(body, 4.0, metal, loads=tuple(loads), travel=np.inf)
+    rise, loads = 2.0, np.linspace(0.0, 1.0, 17)[1:]
+    scene = coated(mesh_of, 4.0, 0.3, HARD, hardening=rise)
+    plastic, history = scene.press(loads, travel=np.inf)
     load = np.append(0.0, [contact.load for contact in history])
     approach = np.append(0.0, [contact.approach for contact in history])
     work = np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(approach))
@@ -143,4 +117,4 @@ def test_work_is_elastic_and_plastic(body_of):
     flowed = areas @ (k + 0.5 * rise * k**2)
     assert flowed > 0.1 * work
     assert areas @ stored + flowed == pytest.approx(work, rel=2e-3)
-    assert not k[np.repeat(body.coated, 3)].any()
+    assert not k[np.repeat(plastic.body.coated, 3)].any()
