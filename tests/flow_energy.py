@@ -23,7 +23,7 @@ import numpy as np
 
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.plasticity import PlasticBody, PlasticState, stress_of
-from fem.nonlinear.press_finite import _FiniteHistory
+from fem.nonlinear.press_finite import FiniteLoadHistory
 from fem.nonlinear.press_plastic import LoadHistory
 
 GAUSS = np.polynomial.legendre.leggauss(16)
@@ -91,7 +91,7 @@ class AccountedHistory(Accounted, LoadHistory):
         return self._compliance.load(self.state.pressure, self._friction)
 
 
-class AccountedFiniteHistory(Accounted, _FiniteHistory):
+class AccountedFiniteHistory(Accounted, FiniteLoadHistory):
     """The energies at finite strains, on a body whose far end is held."""
 
     def _nodal_force(self) -> np.ndarray:

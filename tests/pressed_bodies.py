@@ -2,7 +2,6 @@
 neo-Hookean energy it stores."""
 
 import numpy as np
-from flow_energy import AccountedHistory
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
@@ -15,7 +14,7 @@ from fem.contact.rigid_roller import Roller
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic
-from fem.nonlinear.press_plastic import press_plastically
+from fem.nonlinear.press_plastic import LoadHistory
 
 STEEL = Material(200.0, 0.3)  # over the yield stress
 
@@ -42,18 +41,16 @@ class MetalScene:
         self.gap = pitch * (self.x**2 + pitch**2 / 6.0) / (2.0 * self.hertz.radius)
 
     def press(self, loads, friction=0.0, travel=1.0):
+        """The body at the end, and the contacts."""
+        way, history = self.led(LoadHistory, loads, friction, travel)
+        return way.body, history
+
+    def led(self, kind, loads, friction, travel=np.inf):
+        """The history of loads, of a kind, and its contacts."""
         guess, roller = self.hertz.pressure(self.x), self.pressed if self.elastic else None
-        problem = self.pressed, self.metal, self.gap, self.weights
-        return press_plastically(*problem, self.loads(loads), guess, friction, roller, travel)
-
-    def accounted(self, loads, friction, travel):
-        """The history of loads with its energies, and the contacts."""
-        guess, problem = self.hertz.pressure(self.x), (self.pressed, self.metal, self.gap)
-        way = AccountedHistory(*problem, self.weights, guess, friction, None, travel)
-        return way, way.through(self.loads(loads))
-
-    def loads(self, parts):
-        return [part * self.hertz.load_per_length for part in parts]
+        problem = self.pressed, self.metal, self.gap, self.weights, guess
+        way = kind(*problem, friction, roller, travel)
+        return way, way.through([part * self.hertz.load_per_length for part in loads])
 
 
 def neo_hookean_energy(body: ElasticBody, displacement: np.ndarray, points: int = 4) -> float:

@@ -13,7 +13,6 @@ step to step; the contact that is left is right to the residual.
 
 Nomenclature as of `fem.contact.nonlinear`."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -47,30 +46,6 @@ class FinitePlasticContact(PlasticContact):
     plastic strain logarithmic, in the axes of the undeformed body."""
 
     deformed: FiniteDeformation  # places, stretches, Cauchy's pressure and gap; not its stresses
-
-
-def press_plastically_finitely(
-    contact: FiniteContact,
-    metal: ElasticPlastic,
-    loads: Sequence[float],
-    travel: float = TRAVEL,
-    reached: Callable[[float], None] = lambda share: None,
-) -> tuple[FinitePlasticBody, tuple[FinitePlasticContact, ...]]:
-    """The body at the end, and the contact under each of the loads in turn.
-
-    contact  body and roller, undeformed, with the linear pressure under the first load; the body's
-             material is the metal's elastic one, whose law is not asked for: it is Hencky's
-    metal    of the body; the roller, where it is elastic, stays so
-    loads    P [N/m] vertical force of pressures and their friction, the first positive; 0 removes
-             the roller
-    travel   hats that an edge of the contact may travel in one increment
-    reached  called after each increment with its load over the largest
-
-    Stresses and plastic strain at the mesh's points, which move by `displacement`, are
-    `fem.nonlinear.press_plastic.plastic_fields` of the two results; they are Cauchy's. Raises
-    ValueError for negative loads, FemError if a load cannot be reached."""
-    way = _FiniteHistory(contact, metal, travel)
-    return way.body, way.through(loads, reached)
 
 
 class _Surfaces:
@@ -155,13 +130,24 @@ class _Start(ContactState):
     roller: np.ndarray | float = 0.0  # displacement (m, 2) [m] of an elastic one
 
 
-class _FiniteHistory(LoadHistory):
-    """The contact from load to load. The linear compliances lead ahead: gap and displacements are
-    what the last contact had, and the linear change since then."""
+class FiniteLoadHistory(LoadHistory):
+    """As `LoadHistory`, at finite strains. The linear compliances lead ahead: gap and displacements
+    are what the last contact had, and the linear change since then.
+
+    contact  body and roller, undeformed, with the linear pressure under the first load; the body's
+             material is the metal's elastic one, whose law is not asked for: it is Hencky's
+    metal    of the body; the roller, where it is elastic, stays so
+    travel   hats that an edge of the contact may travel in one increment
+
+    Loads are the vertical force of pressures and their friction. Stresses and plastic strain at the
+    mesh's points, which move by `displacement`, are `fem.nonlinear.press_plastic.plastic_fields` of
+    the body and a contact; they are Cauchy's."""
 
     kind = FinitePlasticBody
 
-    def __init__(self, contact: FiniteContact, metal: ElasticPlastic, travel: float) -> None:
+    def __init__(
+        self, contact: FiniteContact, metal: ElasticPlastic, travel: float = TRAVEL
+    ) -> None:
         roller = contact.roller if len(contact.elastic) > 1 else None
         start, gap, friction = contact.start, contact.gap, contact.friction
         super().__init__(

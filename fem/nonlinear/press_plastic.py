@@ -87,40 +87,19 @@ class PlasticContact:
     iterations: int  # linear contacts solved since the load before
 
 
-def press_plastically(
-    compliance: FiniteElementCompliance,
-    metal: ElasticPlastic,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    loads: Sequence[float],
-    guess: np.ndarray,
-    friction: float = 0.0,
-    roller: FiniteElementCompliance | None = None,
-    travel: float = TRAVEL,
-    reached: Callable[[float], None] = lambda share: None,
-) -> tuple[PlasticBody, tuple[PlasticContact, ...]]:
-    """The body at the end, and the contact under each of the loads in turn.
+class LoadHistory:
+    """A roller that presses a body which flows, from load to load, with what stays elastic
+    condensed.
 
     compliance  the body on the hats; its material is the metal's elastic one
     gap         G (count,) [m^2], integral of hat times initial gap
     weights     w (count,) [m], integrals of the hats
-    loads       P [N/m], the first positive; 0 removes the roller
     guess       pressure (count,) [Pa] of the elastic body under the first load
     friction    of the traction friction * pressure, towards +x on the body
     roller      the elastic roller's body on the same hats, may be `compliance`; None: rigid
     travel      hats that an edge of the contact may travel in one increment
-    reached     called after each increment with its load over the largest
-
-    Raises ValueError for negative loads, FemError if a load cannot be reached."""
-    way = LoadHistory(compliance, metal, gap, weights, guess, friction, roller, travel)
-    return way.body, way.through(loads, reached)
-
-
-class LoadHistory:
-    """The contact from load to load, with what stays elastic condensed.
-
-    body   with its accepted plastic state
-    state  of the last contact"""
+    body        with its accepted plastic state
+    state       of the last contact"""
 
     kind = PlasticBody
 
@@ -131,9 +110,9 @@ class LoadHistory:
         gap: np.ndarray,
         weights: np.ndarray,
         guess: np.ndarray,
-        friction: float,
-        roller: FiniteElementCompliance | None,
-        travel: float,
+        friction: float = 0.0,
+        roller: FiniteElementCompliance | None = None,
+        travel: float = TRAVEL,
     ) -> None:
         self._compliance, self._gap, self._weights = compliance, gap, weights
         self._friction, self._travel = friction, travel
@@ -163,8 +142,9 @@ class LoadHistory:
     def through(
         self, loads: Sequence[float], reached: Callable[[float], None] = lambda share: None
     ) -> tuple[PlasticContact, ...]:
-        """The contact under each of the loads P [N/m] in turn; 0 removes the roller. As of
-        `press_plastically`."""
+        """The contact under each of the loads P [N/m] in turn, the first positive; 0 removes the
+        roller. `reached` is called after each increment with its load over the largest. Raises
+        ValueError for negative loads, FemError if a load cannot be reached."""
         self._reached = lambda load: reached(load / max(loads))
         if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
             raise ValueError("the first load must be positive, and none negative")

@@ -22,12 +22,12 @@ from comparisons.models.problem import Problem, mean_height
 from fem.body.elasticity import ElasticBody
 from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
-from fem.nonlinear.press_finite import press_plastically_finitely
+from fem.nonlinear.press_finite import FiniteLoadHistory
 from fem.nonlinear.press_plastic import (
+    LoadHistory,
     PlasticContact,
     averaged_pressure,
     plastic_fields,
-    press_plastically,
 )
 from fem.solver.mumps import FemError
 from fem.stress.stress import NodalStress, at_nodes
@@ -196,11 +196,9 @@ def pressed_plastically(
     scene, rough, weights = problem.scene, operator.rough, grid.weights
     friction = scene.load.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
-    body, loads = scene.body, (constraints.load, 0.0)
-    metal = ElasticPlastic(body.material, body.flow_stress())
-    body, (loaded, released) = press_plastically(
-        rough, metal, gap, weights, loads, linear.pressure, friction, roller, travel, reached
-    )
+    metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
+    way = LoadHistory(rough, metal, gap, weights, linear.pressure, friction, roller, travel)
+    loaded, released = way.through((constraints.load, 0.0), reached)
     refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
@@ -211,7 +209,7 @@ def pressed_plastically(
     solution = assessed(
         both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
     )
-    fields, others = plastic_fields(body, loaded), _of_flow(body, loaded, released)
+    fields, others = plastic_fields(way.body, loaded), _of_flow(way.body, loaded, released)
     stress = at_nodes(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     if loaded.state.equivalent.any():
@@ -244,22 +242,22 @@ def pressed_plastically_finitely(
     scene, rough = problem.scene, operator.rough
     contact = _unpressed_contact(problem, operator, linear.pressure)
     metal = ElasticPlastic(scene.body.material, scene.body.flow_stress())
-    loads = constraints.load, 0.0
-    body, (pressed, released) = press_plastically_finitely(contact, metal, loads, travel, reached)
+    way = FiniteLoadHistory(contact, metal, travel)
+    pressed, released = way.through((constraints.load, 0.0), reached)
     finite = pressed.deformed
     refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
     counts = {
         "linear_contacts": pressed.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    fields = plastic_fields(body, pressed)
+    fields = plastic_fields(way.body, pressed)
     stress = at_nodes(rough.body, fields.stress)
     loaded = _deformed(rough.body, grid, finite, constraints, counts, FLOW_TOLERANCE, stress)
     if pressed.state.equivalent.any():
         averaged = averaged_pressure(loaded.solution.pressure)
         loaded = replace(loaded, solution=replace(loaded.solution, pressure=averaged))
     known = {"across": fields.sy, "bearable": fields.most / 3**0.5}
-    loaded = replace(loaded, **known, others=_of_flow(body, pressed, released))
+    loaded = replace(loaded, **known, others=_of_flow(way.body, pressed, released))
     return _on_undeformed_grid(problem, grid, finite.place, loaded)
 
 

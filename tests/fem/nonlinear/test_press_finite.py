@@ -18,8 +18,8 @@ from fem.nonlinear import finite_deformation, hyperelastic
 from fem.nonlinear.finite_deformation import FiniteContact
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
 from fem.nonlinear.plasticity import ElasticPlastic
-from fem.nonlinear.press_finite import press_plastically_finitely
-from fem.nonlinear.press_plastic import TRAVEL, plastic_fields, press_plastically
+from fem.nonlinear.press_finite import FiniteLoadHistory
+from fem.nonlinear.press_plastic import LoadHistory, plastic_fields
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
@@ -66,7 +66,7 @@ def test_without_flow_it_is_henckys_law(body, roller, monkeypatch, elastic, fric
     contact, load, peak = touching(body, 0.1, friction, roller if elastic else None)
     wanted = contact.by_newton(load)
     metal = ElasticPlastic(METAL, Hardening(1e3))
-    _, (state,) = press_plastically_finitely(contact, metal, [load])
+    [state] = FiniteLoadHistory(contact, metal).through([load])
     assert state.deformed.load == pytest.approx(load, rel=1e-10)
     np.testing.assert_allclose(state.pressure, wanted.pressure, atol=1e-9 * peak)
     assert state.approach == pytest.approx(wanted.approach, rel=1e-9)
@@ -83,8 +83,10 @@ def test_light_loads_are_those_of_small_strains(body):
         metal = ElasticPlastic(METAL, Hardening(peak / 2.4, peak))
         gap = EDGE * 0.5 * curvature * (X**2 + EDGE**2 / 6.0)
         weights, start = contact.weights, contact.start
-        _, (small,) = press_plastically(contact.compliance, metal, gap, weights, [load], start, 0.1)
-        _, (finite,) = press_plastically_finitely(contact, metal, [load])
+        way = LoadHistory(contact.compliance, metal, gap, weights, start, 0.1)
+        [small], [finite] = (
+            one.through([load]) for one in (way, FiniteLoadHistory(contact, metal))
+        )
         off = np.linalg.norm(finite.pressure - small.pressure) / np.linalg.norm(small.pressure)
         strains = [one.state.equivalent.max() for one in (finite, small)]
         left.append([off, strains[0] / strains[1] - 1.0, finite.approach / small.approach - 1.0])
@@ -104,7 +106,7 @@ def test_work_is_elastic_and_plastic_and_friction(made):
         metal = ElasticPlastic(METAL, Hardening(start, voce=(1.5 * start, 20.0)))
         parts = np.linspace(0.0, 1.0, 2 * steps + 1)
         loads = [*(load * parts[1:]), *(load * parts[-3:0:-2]), 0.0]
-        way = AccountedFiniteHistory(contact, metal, TRAVEL)
+        way = AccountedFiniteHistory(contact, metal)
         assert way.through(loads)[2 * steps - 1].state.equivalent.max() > 0.02
         loaded, released = way.energies[2 * steps - 1], way.energies[-1]
         assert loaded.plastic_work > 0.2 * loaded.work
@@ -142,9 +144,8 @@ def test_first_yield():
     body, flows = elastic_body(mesh, METAL, Support()), []
     for ratio in (1.79 * 0.98, 1.79 * 1.02):
         contact, load, peak = touching(body, 2e-3)
-        _, (state,) = press_plastically_finitely(
-            contact, ElasticPlastic(METAL, Hardening(peak / ratio)), [load]
-        )
+        metal = ElasticPlastic(METAL, Hardening(peak / ratio))
+        [state] = FiniteLoadHistory(contact, metal).through([load])
         flows.append(bool(state.state.equivalent.any()))
     assert flows == [False, True]
 
@@ -153,7 +154,8 @@ def test_released(body):
     """Without the roller nothing is left on any node."""
     contact, load, peak = touching(body, 0.1, 0.1)
     metal = ElasticPlastic(METAL, Hardening(peak / 2.4, peak))
-    plastic, (pressed, released) = press_plastically_finitely(contact, metal, [load, 0.0])
+    way = FiniteLoadHistory(contact, metal)
+    plastic, (pressed, released) = way.body, way.through([load, 0.0])
     assert not released.pressure.any()
     free = ~plastic.held
     left = plastic.force(released.displacement)[free]
@@ -179,9 +181,8 @@ def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
     contact = FiniteContact(body, hats, circle(1.0), start)
     angle = np.arcsin(0.5)
     slip = 2.0 / np.sqrt(3.0) * (1.0 + np.pi / 2.0 - angle + np.tan(angle / 2.0))
-    _, (sunk,) = press_plastically_finitely(
-        contact, ElasticPlastic(metal, Hardening(1.0)), [2.0 * 0.5 * slip]
-    )
+    way = FiniteLoadHistory(contact, ElasticPlastic(metal, Hardening(1.0)))
+    [sunk] = way.through([2.0 * 0.5 * slip])
     place, on = sunk.deformed.place, np.flatnonzero(sunk.pressure)
     ends = 0.5 * (place[on[[0, -1]]] + place[on[[0, -1]] + [-1, 1]])  # of the last hats' shares
     assert sunk.load / np.ptp(ends) == pytest.approx(slip, rel=0.05)

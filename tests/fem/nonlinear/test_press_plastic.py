@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from blocks import hooke
+from flow_energy import AccountedHistory
 from pressed_bodies import STEEL, MetalScene
 from scipy.integrate import trapezoid
 from scipy.optimize import minimize
@@ -275,7 +276,7 @@ def test_load_beyond_the_limit_is_said(small_block, monkeypatch):
 def slid(small_block):
     """Pressed to 2.4 Y in 24 steps of one increment while it slides, and released."""
     scene = MetalScene(small_block, 2.4, 6, support=Support("bonded", "free"), hardening=20.0)
-    return scene.accounted([*np.linspace(0.0, 1.0, 25)[1:], 0.0], 0.3, np.inf)
+    return scene.led(AccountedHistory, [*np.linspace(0.0, 1.0, 25)[1:], 0.0], 0.3)
 
 
 def surface_flux(body, displacement):
@@ -323,7 +324,7 @@ def test_what_increments_miss_of_the_plastic_work_is_of_second_order(small_block
     scene, off = MetalScene(small_block, 2.54, 6), []
     scene.metal = ElasticPlastic(STEEL, Hardening(1.0, modulus=20.0, kinematic=10.0))
     for travel in (1.0, 0.25):
-        way, _ = scene.accounted([1.0, 0.0], 0.2, travel)
+        way, _ = scene.led(AccountedHistory, [1.0, 0.0], 0.2, travel)
         _, energies = way.energies
         assert abs(energies.left) < 1e-5 * energies.plastic_work
         off.append(energies.plastic_work / energies.flowed - 1.0)
