@@ -67,10 +67,7 @@ class Ties:
 def tied_sides(flat: np.ndarray, sides: BoundaryPoints) -> Ties:
     """Ties of nodes at `flat` (n, 2) in the flat block. FemError where the sides do not match."""
     left, right = (side[np.argsort(flat[side, 1])] for side in (sides.left, sides.right))
-    depth = np.ptp(flat[:, 1])
-    apart = np.inf
-    if len(left) == len(right):
-        apart = np.abs(flat[left, 1] - flat[right, 1]).max()
-    if apart > SAME_POINT * depth:
+    slack = SAME_POINT * np.ptp(flat[:, 1])
+    if len(left) != len(right) or np.abs(flat[left, 1] - flat[right, 1]).max() > slack:
         raise FemError("the nodes of the two sides do not stand at the same depths")
     return Ties(left, right)

@@ -13,9 +13,8 @@ moved back. Friction also turns it, which moves its surface and not its shape: i
 about that middle. Left to itself it would carry the dents under the asperities along, and
 corrections that move the pressures' dents and turn the disc apart would diverge."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -164,7 +163,7 @@ class FiniteContact:
         for _ in range(MOST_SETTINGS if np.isinf(hardness) else MOST_CAPS):
             problem, wanted = [(self.response, self.contact)], (asked, approach, cap)
             start = constant, self.weights, state
-            begun = self._begun(asked, approach, hardness)
+            begun = partial(self._begun, asked, approach, hardness)
             solution = solve_nonlinear_contact(problem, *start, *wanted, begun)
             state, deformed = solution.state, self.deformed(solution)
             moved, asked, is_settled = self.settled(state, load, asked)
@@ -235,20 +234,16 @@ class FiniteContact:
         return np.vstack(pieces), aside
 
     def _begun(
-        self, load: float | None, approach: float | None, hardness: float
-    ) -> Callable[[float], ContactState]:
-        """The linear solution under any part of the load."""
-
-        def begun(part: float) -> ContactState:
-            wanted = [part * value if value else value for value in (load, approach)]
-            rest = state_at_rest(self._linear, self.start)
-            problem = self._linear, self.gap, self.weights, rest, *wanted, hardness
-            state = solve_nonlinear_contact(*problem).state
-            moved, _ = self.set_back(np.vstack(state.displacements), state.pressure)
-            moved = np.where(self.response.held, part * self.linear, moved)
-            return replace(state, displacements=(moved,), load=0.0)
-
-        return begun
+        self, load: float | None, approach: float | None, hardness: float, part: float
+    ) -> ContactState:
+        """The linear solution under a `part` of the load."""
+        wanted = [part * value if value else value for value in (load, approach)]
+        rest = state_at_rest(self._linear, self.start)
+        problem = self._linear, self.gap, self.weights, rest, *wanted, hardness
+        state = solve_nonlinear_contact(*problem).state
+        moved, _ = self.set_back(np.vstack(state.displacements), state.pressure)
+        moved = np.where(self.response.held, part * self.linear, moved)
+        return replace(state, displacements=(moved,), load=0.0)
 
     @cached_property
     def _linear(self) -> list[tuple[Response, Contact]]:
@@ -313,7 +308,9 @@ class FiniteCompliance:
                 self.displacement, self.left = moved, rest
                 self.borne = contact.vertical(applied)
                 return gap - contact.gap
-            step = self._corrected(left.reshape(-1, 2)).ravel()
+            pieces = np.split(left.reshape(-1, 2), [len(contact.body.nodes)])
+            bodies = zip(contact.elastic, pieces, strict=False)
+            step = np.vstack([body.solve(piece) for body, piece in bodies]).ravel()
             if before is not None:
                 self._learn(moved.ravel() - before[0], step - before[1])
             before = moved.ravel(), step
@@ -348,13 +345,6 @@ class FiniteCompliance:
             amount = known @ left
             left, move = left - amount * known, move - amount * led
         return move + left
-
-    def _corrected(self, force: np.ndarray) -> np.ndarray:
-        pieces = np.split(
-            force, np.cumsum([len(body.nodes) for body in self._contact.elastic])[:-1]
-        )
-        bodies = zip(self._contact.elastic, pieces, strict=True)
-        return np.vstack([body.solve(piece) for body, piece in bodies])
 
 
 def _circle(x: np.ndarray, z: np.ndarray) -> tuple[float, float, float]:

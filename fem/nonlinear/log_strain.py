@@ -52,13 +52,8 @@ class LogStrain:
     def at(self, some: np.ndarray) -> "LogStrain":
         """That of some of the k."""
         part = copy(self)
-        part.deformed, part.volume, part.strain, part._t, part._d, part._c, part._r, *part._h = (
-            array[some]
-            for array in (
-                *(self.deformed, self.volume, self.strain),
-                *(self._t, self._d, self._c, self._r, *self._h),
-            )
-        )
+        vars(part).update((name, of[some]) for name, of in vars(self).items() if name != "_h")
+        part._h = tuple(array[some] for array in self._h)
         return part
 
     def _derivatives_of_h(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
