@@ -54,11 +54,11 @@ def laws(scene: Scene) -> str:
 
 
 def question(scene: Scene) -> str:
-    """Within what the verdict of a scene is meant, for the end of a clause; nothing where it is
-    meant for the bodies as they are."""
+    """What the verdict of a scene is meant for, at the beginning of a sentence; nothing where it
+    is meant for the bodies as they are."""
     if scene.linear:
         return WITHIN_LINEAR + (" and flow" if scene.finite_element.plastic else "")
-    return "of elastic bodies" if scene.asks_elastic else ""
+    return "for elastic bodies" if scene.asks_elastic else ""
 
 
 def _law(scene: Scene) -> str:

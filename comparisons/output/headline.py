@@ -10,7 +10,7 @@ from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.figures.figure import Figure, nearest_to_tolerance
-from comparisons.models.assumptions import laws, question, without_law
+from comparisons.models.assumptions import WITHIN_LINEAR, laws, without_law
 from comparisons.output.next_step import next_of, pasted, worst_of
 from comparisons.output.within import Within, name_of, size_of, within_of
 from comparisons.studies import contact
@@ -77,9 +77,9 @@ def _sentence(run: Run, kind: Kind, within: Within) -> str:
         return FLOWS
     said = _sentence_of(run, kind, within)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
-    asked = question(run.problem.scene)
+    asked = f", {WITHIN_LINEAR}" if run.problem.scene.linear else ""
     idle = kind == "holds" and FLOW in run.data(MODEL_ERROR).selection.found
-    clauses = f"{law}{asked and f', {asked}'}{f'; {yielding.IDLE}' if idle else ''}"
+    clauses = f"{law}{asked}{f'; {yielding.IDLE}' if idle else ''}"
     return f"{said[0].upper()}{said[1:]}{clauses}.{_inputs(run)}"
 
 

@@ -39,12 +39,14 @@ class Within:
 
     @property
     def sentence(self) -> str:
-        here = "here" + (self.asked and f", {self.asked},")
         if self.size is None:
-            return f"How wrong the half-plane may be {here} is not known: {self.said}."
-        size = percent_as_written(rounded_up(self.size))
-        how = f"right within {size}" if self.size < 1.0 else f"off by up to {size}"
-        return f"The half-plane is {how} {here.rstrip(',')} (largest: {self.said})."
+            said = f"how wrong the half-plane may be here is not known: {self.said}."
+        else:
+            size = percent_as_written(rounded_up(self.size))
+            how = f"right within {size}" if self.size < 1.0 else f"off by up to {size}"
+            said = f"the half-plane is {how} here (largest: {self.said})."
+        said = f"{self.asked}, {said}" if self.asked else said
+        return said[0].upper() + said[1:]
 
 
 def within_of(run: Run) -> Within:

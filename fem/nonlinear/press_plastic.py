@@ -425,6 +425,7 @@ def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     sx, sz, txz, sy, strain = nodal_sums(elements, values, count).T / total
     strain, mean = np.maximum(strain, 0.0), (sx + sz + sy) / 3.0
     most = np.where(nodes.of_triangles(body.body.coated), np.inf, body.bearable(strain, mean))
-    share = np.minimum(1.0, most / np.maximum(von_mises(StressState(sx, sz, txz), sy), 1e-300))
+    found = von_mises(StressState(sx, sz, txz), sy)
+    share = np.divide(most, found, out=np.ones_like(found), where=found > most)
     sx, sz, sy = (mean + share * (part - mean) for part in (sx, sz, sy))
     return PlasticFields(StressState(sx, sz, share * txz), sy, strain, most)
