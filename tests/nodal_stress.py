@@ -4,7 +4,7 @@ import numpy as np
 
 from fem.body.elasticity import ElasticBody, MeshedBody
 from fem.body.surface import Direction, hat_forces, straight_down, tangent_of
-from fem.stress.stress import Beside, NodalStress, nodal_stresses
+from fem.stress.stress import NodalStress, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
 
@@ -15,12 +15,11 @@ def nodal_stress(
     pressure: np.ndarray,
     friction: float = 0.0,
     direction: Direction = straight_down,
-    beside: Beside | None = None,
 ) -> NodalStress:
     """Stresses under the displacement (n, 2) [m] due to a pressure (count,) [Pa] and its sliding
     traction, by `nodal_stresses`."""
     load = SurfaceLoad(body, hats, pressure, np.array([friction]), direction)
-    return nodal_stresses(displacement[:, None], load, beside and (beside,))[0]
+    return nodal_stresses(displacement[:, None], load)[0]
 
 
 def displacement_under(

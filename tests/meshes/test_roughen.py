@@ -20,8 +20,8 @@ def flat():
     return build_block(SPEC)
 
 
-def sinusoid(rms_slope, wavelength=WAVELENGTH):
-    k = 2.0 * np.pi / wavelength
+def sinusoid(rms_slope):
+    k = 2.0 * np.pi / WAVELENGTH
     return lambda x: np.sqrt(2.0) * rms_slope / k * np.cos(k * x + 0.4)
 
 

@@ -19,10 +19,10 @@ TIED = Support("bonded", "tied")
 GRID = HatGrid.around(PERIOD, COUNT)
 
 
-def compliance(edges_a_hat: int, degree: int = 2) -> FiniteElementCompliance:
+def compliance(edges_a_hat: int) -> FiniteElementCompliance:
     x = np.linspace(-0.5 * PERIOD, 0.5 * PERIOD, edges_a_hat * COUNT + 1)
     z = 1.5 * PERIOD * np.linspace(0.0, 1.0, 12 * edges_a_hat + 1) ** 2
-    body = elastic_body(structured(x, z), STEEL, TIED, degree=degree)
+    body = elastic_body(structured(x, z), STEEL, TIED)
     return FiniteElementCompliance(body, GRID.hats)
 
 

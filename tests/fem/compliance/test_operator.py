@@ -15,11 +15,10 @@ PITCH, COUNT = 0.1, 21
 HATS = hat_nodes(-1.0, PITCH, COUNT)
 
 
-def block(structured_block, graded, edge, extent=300.0, half_span=1.5):
-    outer = graded(extent - half_span, 1.5 * edge, 1.25)
-    middle = np.linspace(-half_span, half_span, round(2 * half_span / edge) + 1)
-    x = np.concatenate([-half_span - outer[:0:-1], middle, half_span + outer[1:]])
-    return structured_block(x, graded(extent, edge, 1.25))
+def block(structured_block, graded, edge):
+    outer, middle = graded(298.5, 1.5 * edge, 1.25), np.linspace(-1.5, 1.5, round(3.0 / edge) + 1)
+    x = np.concatenate([-1.5 - outer[:0:-1], middle, 1.5 + outer[1:]])
+    return structured_block(x, graded(300.0, edge, 1.25))
 
 
 @pytest.fixture(scope="module")

@@ -170,16 +170,14 @@ class Pressed:
             self.rough, self.hats, against, self.start, load=self.load, friction=friction
         )
         self.pressure = self.state.cauchy_pressure / self.peak
-        place = np.interp(self._patches(), self.x, self.state.place)
+        patches = contact_patches(self.x, self.state.pressure, self.state.gap)
+        place = np.interp(patches, self.x, self.state.place)
         self.length = float(np.diff(place).sum()) / 2.0
 
     @property
     def centre(self):
         pressure = self.state.pressure
         return self.state.place @ pressure / pressure.sum()
-
-    def _patches(self):
-        return contact_patches(self.x, self.state.pressure, self.state.gap)
 
     @property
     def tau1(self):

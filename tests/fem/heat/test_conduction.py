@@ -62,13 +62,13 @@ def load_of(wave, mesh, exact_forces, velocity, radius, degree):
     return exact_forces(mesh, flux, source, degree)[:, 0]
 
 
-def l2_error(body, temperature, exact):
+def l2_error(body, temperature, wave):
     at, weight = collapsed_gauss(6)
     nodes = real_points(body.mesh)[body.mesh.triangles]
     place = np.einsum("mac,qa->mqc", nodes, shapes(at))
     area = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
     value = temperature[body.numbering.elements] @ shapes(at, body.numbering.degree).T
-    return np.sqrt((area * (value - exact(place[..., 0], place[..., 1])) ** 2).sum())
+    return np.sqrt((area * (value - wave.temperature(place[..., 0], place[..., 1])) ** 2).sum())
 
 
 @pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
@@ -82,7 +82,7 @@ def test_manufactured_solution_on_a_block(structured_block, exact_forces, degree
         moving = Conduction(body, velocity, Surroundings("held", "held"))
         load = load_of(wave, mesh, exact_forces, velocity, np.inf, degree)
         rise = steady(moving, load, wave.temperature(*body.nodes.T))
-        errors.append(l2_error(body, rise, wave.temperature))
+        errors.append(l2_error(body, rise, wave))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders[-1] == pytest.approx(order, abs=0.12)
     assert errors[-1] < {1: 1e-3, 2: 2e-5, 3: 2e-7}[degree]
@@ -97,18 +97,17 @@ def test_manufactured_solution_on_a_turning_disc(structured_block, exact_forces)
         turning = Conduction(body, 10.0, Surroundings("held", "held"))
         load = load_of(wave, mesh, exact_forces, 10.0, 1.6, 2)
         rise = steady(turning, load, wave.temperature(*body.nodes.T))
-        errors.append(l2_error(body, rise, wave.temperature))
+        errors.append(l2_error(body, rise, wave))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders[-1] == pytest.approx(3.0, abs=0.15)
 
 
-def under_band(peclet, layers, size=0.05, degree=2):
+def under_band(peclet, layers):
     """Surface x and k T / (q l) of a half-plane under a unit band |x| < 1 that moves towards +x."""
     velocity = -2.0 * peclet
-    spec = thermal_spec(
-        [[-1, 1]], size, half_width=10, depth=10, length=1 / velocity, layers=layers
-    )
-    body = thermal_body(build_block(spec), UNIT, degree=degree)
+    law = {"length": 1 / velocity, "layers": layers}
+    spec = thermal_spec([[-1, 1]], 0.05, half_width=10, depth=10, **law)
+    body = thermal_body(build_block(spec), UNIT)
     rise = steady(Conduction(body, velocity, OPEN), flux_load(body, BAND, np.ones(3)))
     return body.surface.x, rise[body.surface.point]
 
@@ -153,12 +152,12 @@ def test_an_open_boundary_stands_for_the_half_plane():
     assert surface[5.0] == pytest.approx(surface[10.0], rel=2e-3)
 
 
-def disc(radius, reach, velocity, layers, size):
+def disc(radius, reach, velocity):
     """The part of a disc that lies within `reach` of a band, its arc held."""
     half = reach * np.sqrt(1.0 - (0.5 * reach / radius) ** 2)
     length = 1.0 / velocity if velocity else np.inf
-    law = {"half_width": half, "depth": half, "length": length, "layers": layers}
-    mesh = rounded(build_block(thermal_spec([[-1, 1]], size, **law)), radius)
+    spec = thermal_spec([[-1, 1]], 0.05, half_width=half, depth=half, length=length)
+    mesh = rounded(build_block(spec), radius)
     body = thermal_body(mesh, UNIT, radius=radius)
     around = Surroundings("held", "flow" if velocity else "held")
     rise = steady(Conduction(body, velocity, around), flux_load(body, BAND, np.ones(3)))
@@ -176,7 +175,7 @@ def test_a_disc_at_rest(radius, part):
     outer, height = np.pi - np.arccos(0.5 * part), np.sqrt(reach**-2 - 0.25 * radius**-2)
     as_far = 2.0 * outer / (np.pi * height)
     exact = (np.log(as_far) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(as_far / |x|)
-    highest = disc(radius, reach, 0.0, 2, 0.05)[1].max()
+    highest = disc(radius, reach, 0.0)[1].max()
     assert highest == pytest.approx(exact, rel=1e-3)
     half_plane = (np.log(reach) + 1.0) * 2.0 / np.pi  # the disc is narrower
     assert highest > (1.0 + 0.05 * part) * half_plane
@@ -205,7 +204,7 @@ def turning(x, radius, velocity):
 def test_a_disc_that_turns():
     x, errors = np.array([-0.8, -0.3, 0.0, 0.45, 0.8, 0.9]), []
     for radius, velocity in ((10.0, 2.0), (10.0, 20.0), (20.0, 2.0)):
-        place, rise = disc(radius, radius, velocity, 2, 0.05)
+        place, rise = disc(radius, radius, velocity)
         exact = turning(x, radius, velocity)
         assert np.interp(x, place, rise) == pytest.approx(exact, abs=2e-3 * exact.max())
         errors.append(1.0 - band_surface(-x, 0.5 * velocity).max() / exact.max())

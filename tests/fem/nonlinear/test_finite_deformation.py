@@ -35,10 +35,9 @@ def peak(curvature):
     return 0.5 * MODULUS * curvature
 
 
-def make(size=1.0, height=None, modulus=1.0, half_width=60.0):
-    mesh = build_block(
-        BlockSpec(half_width * size, 60.0 * size, size * np.array([[-1.5, 1.5]]), EDGE * size, 0.25)
-    )
+def make(size=1.0, height=None, modulus=1.0):
+    refined = size * np.array([[-1.5, 1.5]])
+    mesh = build_block(BlockSpec(60.0 * size, 60.0 * size, refined, EDGE * size, 0.25))
     if height is not None:
         mesh = roughen(mesh, height)
     return elastic_body(mesh, Material(modulus, POISSON), Support("bonded", "fixed"))
@@ -55,12 +54,11 @@ def linear(body, curvature, load, friction=0.0):
     return press_linearly(body, HATS, gap, peak(curvature) * HERTZ, load, friction)
 
 
-def pressed(body, curvature, roller=None, **wanted):
+def pressed(body, curvature, **wanted):
     load = 0.5 * np.pi * peak(curvature)
     start = linear(body, curvature, load)
     wanted = {"load": load} | wanted
-    roller = circle(1.0 / curvature) if roller is None else roller
-    return start, press_finitely(body, HATS, roller, start.pressure, **wanted)
+    return start, press_finitely(body, HATS, circle(1.0 / curvature), start.pressure, **wanted)
 
 
 def test_newton_converges_quadratically(body):

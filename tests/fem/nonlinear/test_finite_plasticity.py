@@ -63,9 +63,9 @@ def test_stress_and_tangent_are_derivatives_of_the_strain():
     np.testing.assert_allclose(tangent, tangent.transpose(0, 2, 1), atol=1e-12)
 
 
-def made(structured_block, material=HENCKY, height=None):
+def made(structured_block, height=None):
     mesh = structured_block(np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5), height, seed=2)
-    return elastic_body(mesh, material, Support("bonded", "free"))
+    return elastic_body(mesh, HENCKY, Support("bonded", "free"))
 
 
 @pytest.mark.parametrize("height", [None, lambda x: 0.05 * np.cos(3.0 * x)])
@@ -73,7 +73,7 @@ def test_below_yield_it_is_henckys_law(structured_block, monkeypatch, height):
     """Forces, tangents and stresses of dolfinx's energy at the same three points, to rounding; its
     tangent differs by the terms that the series of its energy leaves out."""
     monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
-    body = made(structured_block, height=height)
+    body = made(structured_block, height)
     metal = FinitePlasticBody(body, ElasticPlastic(HENCKY, Hardening(1e4)))
     law, at, free = HyperelasticBody(body), moved(body, 0.06, 1), ~body.held.ravel()
     (force, tangent), (wanted, exact) = metal.linearised(at), law.linearised(at)

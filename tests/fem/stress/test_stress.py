@@ -280,17 +280,13 @@ def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face(structured_
     node = hats[1:-1]
     pressure = 1.0 - node**2
     moved = displacement_under(body, hats, pressure, 0.25, direction)
-
-    def pressure_at(x):
-        return np.interp(x, node, pressure)
-
     nodal = nodal_stress(body, moved, hats, pressure, 0.25, direction).stress
     at, x = body.surface.point, body.surface.x
     inside = np.abs(x) < 0.49
     normal = np.array([-0.2, -1.0])  # out of the body, times the face's length per x
     along = nodal.sx[at] * normal[0] + nodal.txz[at] * normal[1]
     force = np.column_stack([along, nodal.txz[at] * normal[0] + nodal.sz[at] * normal[1]])
-    expected = pressure_at(x)[:, None] * [0.1 + 0.25, 1.0 - 0.25 * 0.1]
+    expected = np.interp(x, node, pressure)[:, None] * [0.1 + 0.25, 1.0 - 0.25 * 0.1]
     np.testing.assert_allclose(force[inside], expected[inside], atol=1e-12)
 
 
