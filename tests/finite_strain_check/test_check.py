@@ -161,6 +161,7 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
         "roller": {"radius": 2e-3, "rigid": True},
         "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"},
         "load": {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.3, "coupled": True},
+        "finite_element": {"plastic": False},
         "stress": {},
     }
     run = crosscheck.run(tables)
