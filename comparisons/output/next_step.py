@@ -171,6 +171,8 @@ def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:
         yield Offer(said, options=options, or_linear=largest == LAW and not worst.is_unresolved)
     if largest == SAMPLING:
         yield Offer(MORE_SAMPLES)
+    if largest == FLOW:
+        yield LINEAR
 
 
 def _of_effect(run: Run, name: str) -> Iterator[Offer]:
