@@ -65,10 +65,9 @@ def complete_scenes(incomplete: str) -> list[str]:
 
 def complete_maps(incomplete: str) -> list[str]:
     """The same with the names of finished maps."""
-    from comparisons.campaigns.maps.map import FINISHED
+    from comparisons.campaigns.maps.map import finished_names
 
-    names = sorted(path.stem for path in FINISHED.glob("*.toml"))
-    return [*_beginning(names, incomplete), *complete_scenes(incomplete)]
+    return [*_beginning(finished_names(), incomplete), *complete_scenes(incomplete)]
 
 
 def complete_groups(incomplete: str) -> list[str]:

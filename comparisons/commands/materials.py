@@ -24,22 +24,14 @@ def materials(
     as_json: Annotated[bool, json_option("the solids as JSON")] = False,
 ) -> int:
     """List the solids that a scene may name. Of one, its numbers with their sources."""
-    from comparisons.scenes.materials import solids
+    from comparisons.scenes.materials import names_for, solid_named, solids
 
-    listed = [solid_or_error(name)] if name is not None else list(solids().values())
+    listed = [solid_named(name)] if name is not None else list(solids().values())
+    if None in listed:
+        raise InputError(f"{name}: is no known solid; {names_for(name)}")
     entries = [entry_of(solid) for solid in listed]
     show_either(as_json, entries, lambda: solids_table(listed) if name is None else page(listed[0]))
     return ExitStatus.DONE
-
-
-def solid_or_error(name: str) -> "Solid":
-    """Raises InputError, with the names of its class, for one that no solid has."""
-    from comparisons.scenes.materials import names_for, solid_named
-
-    solid = solid_named(name)
-    if solid is None:
-        raise InputError(f"{name}: is no known solid; {names_for(name)}")
-    return solid
 
 
 def entry_of(solid: "Solid") -> dict:
@@ -102,20 +94,15 @@ def solids_table(listed: list["Solid"]) -> "Table":
     """Name, class, moduli and third-order constants [GPa] with their standard errors."""
     from rich.table import Table
 
-    table = Table(box=None, padding=(0, 2, 0, 0))
-    for head, side in (("solid", "left"), ("class", "left"), ("E [GPa]", "right"), ("nu", "right")):
-        table.add_column(head, justify=side)
-    for head in ("l [GPa]", "m [GPa]", "n [GPa]"):
+    table = Table("solid", "class", box=None, padding=(0, 2, 0, 0))
+    for head in ("E [GPa]", "nu", "l [GPa]", "m [GPa]", "n [GPa]"):
         table.add_column(head, justify="right")
     table.add_column("source of l, m, n")
     for solid in listed:
-        table.add_row(solid.name, solid.kind, *_moduli(solid), *_constants(solid))
+        young, ratio = (solid.values.get(name) for name in ("youngs_modulus", "poissons_ratio"))
+        nu = UNKNOWN if ratio is None else f"{ratio.value:.3g}"
+        table.add_row(solid.name, solid.kind, f"{young.value / 1e9:.4g}", nu, *_constants(solid))
     return table
-
-
-def _moduli(solid: "Solid") -> list[str]:
-    young, ratio = (solid.values.get(name) for name in ("youngs_modulus", "poissons_ratio"))
-    return [f"{young.value / 1e9:.4g}", UNKNOWN if ratio is None else f"{ratio.value:.3g}"]
 
 
 def _constants(solid: "Solid") -> list[str]:
@@ -124,12 +111,11 @@ def _constants(solid: "Solid") -> list[str]:
     if law is None or law.murnaghan is None:
         return [UNKNOWN] * 3 + ["none found" if law is None else f"{law.name}: its class"]
     errors = law.standard_errors or (None,) * 3
-    cells = [_with_error(*pair) for pair in zip(law.murnaghan, errors, strict=True)]
+    cells = [
+        f"{value / 1e9:.4g}" + ("" if error is None else f" ± {error / 1e9:.2g}")
+        for value, error in zip(law.murnaghan, errors, strict=True)
+    ]
     return [*cells, ", ".join(solid.law_sources)]
-
-
-def _with_error(value: float, error: float | None) -> str:
-    return f"{value / 1e9:.4g}" + ("" if error is None else f" ± {error / 1e9:.2g}")
 
 
 def page(solid: "Solid") -> "Table":

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
-    from comparisons.scenes.surface import SceneSurface
     from comparisons.studies.study import Run
 
 
@@ -96,7 +95,12 @@ def run(
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
     if plan:
-        return _say_plan(asked, surface, chosen)
+        from comparisons.output.terminal import PLAIN
+        from comparisons.runs.run import planned
+
+        for line in planned(asked, surface, chosen):
+            print(line.translate(PLAIN))
+        return ExitStatus.DONE
     directory = out or RESULTS / asked.name
     _check_places(directory, junit, chosen)
     say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
@@ -107,8 +111,13 @@ def run(
     with progress() as callback:
         drawn = finish(solved, callback)
         if pdf and drawn:
+            from comparisons.output.page.pdf import NoPdfError, print_report
+
             callback("printing the report")
-            _print(directory)
+            try:
+                print_report(directory)
+            except NoPdfError as error:  # the run is as good as any other
+                tell(str(error))
     if junit is not None:
         from comparisons.output.junit import junit_xml, run_cases_of, write_junit
 
@@ -171,16 +180,6 @@ def _relative(text: str) -> float:
     return value
 
 
-def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) -> int:
-    """What a run would do, by the laws of cost: levels, and steps with what makes them needless."""
-    from comparisons.output.terminal import PLAIN
-    from comparisons.runs.run import planned
-
-    for line in planned(scene, surface, models):
-        print(line.translate(PLAIN))
-    return ExitStatus.DONE
-
-
 def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
     """Those of a Dask scheduler, or none but this machine's."""
     if scheduler is None:
@@ -201,13 +200,3 @@ def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) ->
         check_place(junit)
     if len(models) == 1 and holds_comparison(directory):
         tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
-
-
-def _print(directory: Path) -> None:
-    """Print the report; a run whose report no browser prints is as good as any other."""
-    from comparisons.output.page.pdf import NoPdfError, print_report
-
-    try:
-        print_report(directory)
-    except NoPdfError as error:
-        tell(str(error))

@@ -46,12 +46,11 @@ def scenes(
     from comparisons.scenes.files import scene_titles
 
     titles = scene_titles(benchmarks)
+    width = max(map(len, titles))
     if as_json:
         show_json(titles)
-        return ExitStatus.DONE
-    width = max(map(len, titles))
-    for name, title in titles.items():
-        print(f"{name:{width}}  {title}")
+    else:
+        print(*(f"{name:{width}}  {title}" for name, title in titles.items()), sep="\n")
     return ExitStatus.DONE
 
 
@@ -164,13 +163,15 @@ def deck(
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
     """Write a scene as input of another code. A page says how to bring its answer back."""
-    from comparisons.campaigns.decks.write import account_of, write_deck
+    from comparisons.campaigns.decks.write import FILES, MM, write_deck
 
     asked = scene_with(scene, settings)
     folder = out or RESULTS / f"{asked.name}-{code}"
     written = write_deck(asked, code, folder, level)
     if as_json:
-        show_json(account_of(written, code, folder))
-        return ExitStatus.DONE
-    print(f"{written.nodes} nodes; {folder / 'README.md'} says how to solve it")
+        files = sorted(name for name in FILES if (folder / name).exists())
+        where = {"folder": str(folder), "code": code, "nodes": written.nodes, "files": files}
+        show_json(where | {"edge": written.edge / MM})  # [m]
+    else:
+        print(f"{written.nodes} nodes; {folder / 'README.md'} says how to solve it")
     return ExitStatus.DONE

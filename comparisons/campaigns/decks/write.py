@@ -5,7 +5,7 @@ roller's the master, and the load acts on a reference node, with which the rolle
 moves as one. For FEniCSx a script of plain dolfinx, and the mesh and gap that it reads."""
 
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -65,17 +65,6 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProble
         files[name] = rendered(TEMPLATES / f"{name}.j2", **values)
     publish(out, files, FILES)
     return deck
-
-
-def account_of(deck: DeckProblem, code: str, folder: Path) -> dict:
-    """Where a written deck is and how large, for JSON; lengths [m]."""
-    return {
-        "folder": str(folder),
-        "code": code,
-        "nodes": deck.nodes,
-        "files": sorted(name for name in FILES if (folder / name).exists()),
-        "edge": deck.edge / MM,
-    }
 
 
 def calculix_files(deck: DeckProblem) -> dict[str, str]:
@@ -181,7 +170,8 @@ def _mesh(deck: DeckProblem) -> Iterator[str]:
         sets |= {f"{name}_HELD_{axis}": np.flatnonzero(body.held[:, k]) for k, axis in AXES}
         for label, members in sets.items():
             yield f"*NSET, NSET={label}"
-            yield from _lines(nodes + 1 + members)
+            listed = list(map(str, nodes + 1 + members))
+            yield from (", ".join(listed[k : k + 12]) for k in range(0, len(listed), 12))
         nodes, elements = nodes + len(body.points), elements + len(body.triangles)
     yield "*NODE, NSET=REFERENCE"
     yield f"{nodes + 1}, 0., {deck.roller.points[:, 1].max():.12g}"
@@ -189,11 +179,6 @@ def _mesh(deck: DeckProblem) -> Iterator[str]:
     for node in nodes - len(deck.roller.points) + 1 + np.flatnonzero(deck.roller.held[:, 1]):
         for axis in tied:
             yield from ("*EQUATION", "2", f"{node}, {axis}, 1., {nodes + 1}, {axis}, -1.")
-
-
-def _lines(numbers: Iterable[int], a_line: int = 12) -> Iterator[str]:
-    listed = list(map(str, numbers))
-    return (", ".join(listed[k : k + a_line]) for k in range(0, len(listed), a_line))
 
 
 def fenicsx_files(deck: DeckProblem) -> dict[str, str | bytes]:

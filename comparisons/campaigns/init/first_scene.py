@@ -7,6 +7,7 @@ import json
 import os
 import tomllib
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
@@ -52,6 +53,7 @@ JUDGED = {
     "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), 0.02),
 }
 
+toml = partial(json.dumps, ensure_ascii=False)  # of text, numbers, truths and lists of them
 Options = Mapping[str, str | int | None]
 Sections = dict[str, dict[str, object]]  # values of fields by section
 
@@ -170,18 +172,13 @@ def scene_text(
 
     values  by section and field
     notes   by field: a remark"""
-    lines = [HEAD, f"title = {_toml(title)}"]
+    lines = [HEAD, f"title = {toml(title)}"]
     for section, fields in JUDGED.items():
-        shown = ", ".join(f"{name} = {_toml(value)}" for name, value in fields.items())
+        shown = ", ".join(f"{name} = {toml(value)}" for name, value in fields.items())
         lines.append(f"{section} = {{{shown}}}")
     for section, fields in values.items():
         lines += ["", f"[{section}]"]
         for name, value in fields.items():
             note = f"  # {one_line(notes[name])}" if name in notes else ""
-            lines.append(f"{name} = {_toml(value)}{note}")
+            lines.append(f"{name} = {toml(value)}{note}")
     return "\n".join(lines) + "\n"
-
-
-def _toml(value: object) -> str:
-    """Text, numbers, truths and lists of them as TOML."""
-    return json.dumps(value, ensure_ascii=False)

@@ -109,14 +109,6 @@ def _size(name: str, problem: Problem) -> float:
     return 0.0 if extent is None else problem.hertz.half_width / extent
 
 
-def _radius(problem: Problem) -> float:
-    return problem.hertz.half_width / problem.scene.roller.radius
-
-
-def _friction(problem: Problem) -> float:
-    return max(problem.scene.load.friction) * abs(problem.dundurs_beta)
-
-
 def _slope(problem: Problem) -> float:
     info = problem.surface.info
     return 0.0 if info is None else info.roughness.rms_slope
@@ -220,17 +212,9 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-def _set_coating(scene: Scene, value: float) -> Changes:
-    return {"coating.thickness": value * _half_width(scene)}
-
-
 def _coating(problem: Problem) -> float | None:
     coating = problem.scene.coating
     return None if coating is None else coating.thickness / problem.hertz.half_width
-
-
-def _set_coating_ratio(scene: Scene, value: float) -> Changes:
-    return {"coating.youngs_modulus": value * scene.body.youngs_modulus}
 
 
 def _modulus_ratio(section: str, problem: Problem) -> float | None:
@@ -243,18 +227,30 @@ def _modulus_ratio(section: str, problem: Problem) -> float | None:
 FUNCTIONS = {  # set_to, value_of
     "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
     "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
-    "a_over_radius": (_set_radius, _radius),
+    "a_over_radius": (
+        _set_radius,
+        lambda posed: posed.hertz.half_width / posed.scene.roller.radius,
+    ),
     "rms_slope": (_set_slope, _slope),
     "wavelength_over_a": (_set_wavelength, _wavelength),
-    "friction_dundurs": (_set_friction, _friction),
+    "friction_dundurs": (
+        _set_friction,
+        lambda problem: max(problem.scene.load.friction) * abs(problem.dundurs_beta),
+    ),
     "peak_pressure_over_hardness": (_set_hardness, lambda problem: None),
     "poissons_ratio": (
         lambda scene, value: {"body.poissons_ratio": value},
         lambda problem: problem.scene.body.poissons_ratio,
     ),
     "modulus_ratio": (_set_modulus_ratio, partial(_modulus_ratio, "roller")),
-    "coating_over_a": (_set_coating, _coating),
-    "coating_modulus_ratio": (_set_coating_ratio, partial(_modulus_ratio, "coating")),
+    "coating_over_a": (
+        lambda scene, value: {"coating.thickness": value * _half_width(scene)},
+        _coating,
+    ),
+    "coating_modulus_ratio": (
+        lambda scene, value: {"coating.youngs_modulus": value * scene.body.youngs_modulus},
+        partial(_modulus_ratio, "coating"),
+    ),
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)

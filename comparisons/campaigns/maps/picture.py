@@ -54,18 +54,15 @@ def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
     _bar(drawn)
     what = label(content["quantity"])
     axes.set_title(f"Model error of the half-plane: {what}, per cent\n{content['scene']['title']}")
-    _legend(axes, content, kinds, lines, _marked(axes, content, mark))
+    marked = []
+    if mark is not None:
+        name, values = mark
+        at = [places(content[axis], value)[0] for axis, value in zip("xy", values, strict=True)]
+        look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}
+        look |= {"linestyle": "none", "label": name}
+        marked = axes.plot(*at, zorder=5, clip_on=False, **look)
+    _legend(axes, content, kinds, lines, marked)
     return drawn
-
-
-def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
-    if mark is None:
-        return []
-    name, values = mark
-    at = [places(content[axis], value)[0] for axis, value in zip("xy", values, strict=True)]
-    look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}
-    look |= {"linestyle": "none", "label": name}
-    return axes.plot(*at, zorder=5, clip_on=False, **look)
 
 
 def _edges(places: np.ndarray) -> np.ndarray:

@@ -14,7 +14,6 @@ from comparisons.cli import app
 from comparisons.commands import arguments
 from comparisons.scenes.files import scene_names
 
-ESCAPE = "\x1b["
 SCENE = """
 title = "Seen"
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
@@ -90,12 +89,12 @@ def test_a_pipe_gets_neither(folder, more):
     assert "\x1b" not in done.stdout and "peak pressure" in done.stdout
 
 
-def answer(line: str, shell: str = "bash") -> list[str]:
+def answer(line: str) -> list[str]:
     """What the shell is told that the last word of a line may become."""
     asked = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
     done = subprocess.run(
         [sys.executable, "-m", "comparisons.cli"],
-        env=environment(_CROSSCHECK_COMPLETE=f"complete_{shell}", **asked),
+        env=environment(_CROSSCHECK_COMPLETE="complete_bash", **asked),
         cwd=PROJECT,
         capture_output=True,
         text=True,

@@ -15,6 +15,7 @@ from comparisons.campaigns.decks.problem import deck_problem
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
+from comparisons.models.posing import problem_of
 from comparisons.notebook import scene_of
 
 KNOWN = {  # keywords of CalculiX that a deck may use
@@ -85,7 +86,7 @@ def test_a_deck_is_complete(tmp_path, scene):
         on = {elements[e][k] for e, face in faces for k in (face - 1, face % 3, face + 2)}
         assert on == set(sets[f"{name}_NODES"])
     (load,) = {row[2] for keyword, _, data in cards if keyword == "CLOAD" for row in data}
-    assert float(load) == pytest.approx(-1e-3 * scenes_load(resolved))
+    assert float(load) == pytest.approx(-1e-3 * problem_of(resolved).hertz.load_per_length)
     steps = [keyword for keyword, *_ in cards].count("STEP")
     slides = [mu for mu in resolved.load.friction if mu]
     assert steps == 1 + len(slides) + deck.finite
@@ -104,20 +105,13 @@ def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path):
     tied = [data[1][1] for keyword, _, data in cards if keyword == "EQUATION"]
     assert tied.count("1") == tied.count("2") > 0
     loads = [float(r[2]) for word, _, data in cards if word == "CLOAD" for r in data if r[1] == "1"]
-    limit = 0.3e-3 * scenes_load(scenes.resolved(tables))
+    limit = 0.3e-3 * scenes.problem(tables).hertz.load_per_length
     assert loads == pytest.approx([0.5 * limit, -0.25 * limit])
     *_, pressed, first, last = (data for word, _, data in cards if word == "BOUNDARY")
     assert ["REFERENCE", "1", "1"] in pressed
     assert first == last == [["ROUGH_HELD_X", "1", "1"], ["ROUGH_HELD_Y", "2", "2"]]
     [friction] = [data for keyword, _, data in cards if keyword == "FRICTION"]
     assert float(friction[0][0]) == 0.3
-
-
-def scenes_load(resolved) -> float:
-    """[N/m]"""
-    from comparisons.models.posing import problem_of
-
-    return problem_of(resolved).hertz.load_per_length
 
 
 def test_a_linear_deck_is_the_scene_in_flatter_form():

@@ -23,14 +23,8 @@ def toml() -> Callable[[dict], str]:
     """`toml(changes)`: GOOD with the changes, as a scene file; None takes a field away."""
 
     def written(changes: dict) -> str:
-        fields = {name: text for name, text in {**GOOD, **changes}.items() if text is not None}
-        top = [f"{name} = {text}" for name, text in fields.items() if "." not in name]
-        sections: dict[str, list[str]] = {}
-        for path, text in fields.items():
-            if "." in path:
-                section, name = path.split(".")
-                sections.setdefault(section, []).append(f"{name} = {text}")
-        return "\n".join([*top, *(f"[{s}]\n" + "\n".join(rows) for s, rows in sections.items())])
+        fields = {**GOOD, **changes}.items()
+        return "\n".join(f"{name} = {text}" for name, text in fields if text is not None)
 
     return written
 
