@@ -21,10 +21,6 @@ USUAL = 0.02  # relative tolerance of a scene that gives none
 LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
 
 
-def _one(hertz: "HertzContact") -> float:
-    return 1.0
-
-
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
 
@@ -35,7 +31,7 @@ class Quantity:
     label: str  # in words, for tables
     unit: str = ""  # of the figure in SI; "" for ratios
     # of the smooth contact: what a figure that vanishes is measured by
-    scale: Callable[["HertzContact"], float] = _one
+    scale: Callable[["HertzContact"], float] = lambda hertz: 1.0
     # of convergence under refinement: 2 for the quadratic elements' smooth figures, 1 where the
     # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
     # there the slope of the stress, of order 1, is zero

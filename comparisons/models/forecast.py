@@ -120,19 +120,18 @@ def with_one_more(
     return time, memory
 
 
-def flow_seconds(problem: Problem, patches: np.ndarray, deformation: str = "linear") -> float:
+def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     """Of flow on the first two levels, at small strains with the check of its increments, for every
     friction coefficient, by the laws of cost."""
     from comparisons.models.finite_element.cost import expected
     from comparisons.models.finite_element.mesh import Refinement
     from fem.nonlinear.press_plastic import TRAVEL
 
-    switches = {"finite_element.plastic": True, "finite_element.deformation": deformation}
+    switches = {"finite_element.plastic": True, "finite_element.deformation": "linear"}
     flowing = replace(problem, scene=problem.scene.unchecked(switches))
     plan, coarsest = make_plan(flowing, MODELS), problem.pitches[0]
     refinements = [Refinement(coarsest), Refinement(0.5 * coarsest)]
-    if deformation == "linear":
-        refinements += [Refinement(coarsest, travel=times * TRAVEL) for times in LONGER]
+    refinements += [Refinement(coarsest, travel=times * TRAVEL) for times in LONGER]
     seconds = sum(expected(flowing, plan, one, patches).seconds for one in refinements)
     return len(problem.scene.load.friction) * seconds
 

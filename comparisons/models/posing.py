@@ -66,7 +66,12 @@ def _under_roller(
     scene: Scene, surface: SceneSurface, modulus: float, load: float | None
 ) -> Problem:
     """The smooth contact, and how far that of the scene may reach."""
-    hertz = _smooth_contact(scene, modulus, load)
+    radius, value = scene.roller.radius, scene.load.value
+    if scene.load.kind == "hertz_peak_pressure":
+        hertz = hertz_from_peak_pressure(value, radius, modulus)
+    else:
+        load = value if scene.load.kind == "per_length" else load
+        hertz = hertz_from_load(load, radius, modulus)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
     plastic = scene.finite_element.plastic
@@ -104,14 +109,6 @@ def _may_flow(scene: Scene, hertz: HertzContact) -> bool:
     asked = scene.body.yield_stress is not None and scene.budget.effects and scene.tolerances
     rough = scene.profile is not None
     return bool(asked) and (rough or hertz.peak_pressure > least_of_flow(scene))
-
-
-def _smooth_contact(scene: Scene, modulus: float, load: float | None) -> HertzContact:
-    if scene.load.kind == "hertz_peak_pressure":
-        return hertz_from_peak_pressure(scene.load.value, scene.roller.radius, modulus)
-    if scene.load.kind == "per_length":
-        load = scene.load.value
-    return hertz_from_load(load, scene.roller.radius, modulus)
 
 
 def _check_layers(scene: Scene, half_width: float) -> None:

@@ -5,7 +5,6 @@ large that it stands for a half-plane. An elastic roller is a second body under 
 a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
 compliances; analytic operators only predict it."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -210,9 +209,13 @@ class _LevelSolution:
         if flows:
             words = "flow at finite deformation" if self.is_finite else "plastic flow"
             words = f"finite elements: {words}"
+
+            def reached(share: float) -> None:
+                self.stages.callback(f"{words}, {100.0 * share:.0f} % of the load")
+
             with self.stages.stage("plastic flow", words):
                 contact = problem, operator, grid, solution
-                how = self.constraints, self.refinement.travel, self._reached(words)
+                how = self.constraints, self.refinement.travel, reached
                 if self.is_finite:
                     return pressed_plastically_finitely(*contact, *how)
                 return pressed_plastically(*contact, self.weighted_gap, *how)
@@ -223,10 +226,6 @@ class _LevelSolution:
                 )
         with self.stages.stage("contact", "finite elements: contact"):
             return pressed_linearly(problem, operator, grid, solution, self.weighted_gap)
-
-    def _reached(self, words: str) -> Callable[[float], None]:
-        """Tell how far flow has come."""
-        return lambda share: self.stages.callback(f"{words}, {100.0 * share:.0f} % of the load")
 
 
 def problem_of_approach(

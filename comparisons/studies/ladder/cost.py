@@ -181,10 +181,21 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         rows.append(row | {quantity: errors.get(quantity) for quantity in known})
     units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
     columns = {n: Column(tuple(r[n] for r in rows), units.get(n, "")) for n in (*COLUMNS, *known)}
-    said += [Statement("reference", _reference_words(known))] if known else []
+    measures = (
+        f"{QUANTITIES[name].short} of {best.words}, known to {percent(best.floor)}"
+        for name, best in known.items()
+    )
+    said += [Statement("reference", "; ".join(measures))] if known else []
     tolerances = {n: t for n, t in solved.problem.scene.tolerances.items() if n in known}
     aims = [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1)
-    best = {_aim_words(aim): _cheapest_words(cheapest(rows, aim, known)) for aim in aims}
+    best = {}
+    for aim in aims:
+        words = (f"{QUANTITIES[n].short} to {percent_as_written(t)}" for n, t in aim.items())
+        settings = []
+        for row in cheapest(rows, aim, known):
+            pitch, seconds = with_unit(row["pitch"], "m", 3), with_unit(row["seconds"], "s", 2)
+            settings.append(f"{row['model']} at {pitch}, {seconds}")
+        best[", ".join(words)] = "; ".join(settings) or "none that is solved"
     chosen = {"aim": Column(tuple(best)), "setting": Column(tuple(best.values()))}
     series = Series(ROWS, columns, is_account=True), Series(CHEAPEST, chosen, is_account=True)
     data = {name: reference.floor for name, reference in known.items()}
@@ -248,26 +259,6 @@ def cheapest(
 def _limit(row: Mapping[str, object]) -> str:
     """The model to which a row's would converge."""
     return re.sub(", P[13]$", "", row["model"])
-
-
-def _aim_words(aim: Mapping[str, float]) -> str:
-    return ", ".join(f"{QUANTITIES[n].short} to {percent_as_written(t)}" for n, t in aim.items())
-
-
-def _cheapest_words(rows: list[dict]) -> str:
-    said = (
-        f"{row['model']} at {with_unit(row['pitch'], 'm', 3)}, {with_unit(row['seconds'], 's', 2)}"
-        for row in rows
-    )
-    return "; ".join(said) or "none that is solved"
-
-
-def _reference_words(known: Mapping[str, Reference]) -> str:
-    words = (
-        f"{QUANTITIES[name].short} of {best.words}, known to {percent(best.floor)}"
-        for name, best in known.items()
-    )
-    return "; ".join(words)
 
 
 def table(findings: Findings) -> TextTable:

@@ -7,7 +7,7 @@ base adds (`analytic.layers.stress`)."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
 
 import numpy as np
 
@@ -80,12 +80,8 @@ def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]
     return frozenset(effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else set()))
 
 
-def is_deformed(held: frozenset[str]) -> bool:
-    return "finite_strain" in held
-
-
 def words_of(held: frozenset[str]) -> str:
-    where = "half-plane on the deformed surface" if is_deformed(held) else "half-plane"
+    where = "half-plane on the deformed surface" if "finite_strain" in held else "half-plane"
     beside = ", ".join(words for name, words in WORDS.items() if name in held)
     return f"{where} with {beside}" if beside else where
 
@@ -132,7 +128,7 @@ def operator_level(
             return solve_on(operator, gap, grid.weights, problem.constraints(), start)
 
         solution = solve(gap)
-        if is_deformed(held):
+        if "finite_strain" in held:
             solution = _deformed_contact(problem, grid).pressed(solve, solution)
         level = Level(
             grid=grid,
@@ -214,7 +210,8 @@ def _stresses(
     for friction in frictions:
         largest = [side.maxima(problem, level, friction) for side in sides]
         maxima = {
-            name: _larger([one.cells[key] for one in largest])
+            # of each asperity (3, k) the side with the larger value
+            name: reduce(lambda a, b: np.where(b[0] > a[0], b, a), (s.cells[key] for s in largest))
             for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
         }
         extremes = {name: highest(cells) for name, cells in maxima.items()}
@@ -243,11 +240,3 @@ def _sides(problem: Problem, level: Level, window: Window) -> list[_Side]:
     if not goes_on:
         return [layer]
     return [layer, _Side(body.base, added, True, ends, replace(searched, z=below))]
-
-
-def _larger(cells: list[np.ndarray]) -> np.ndarray:
-    """Of each asperity (3, k) the side with the larger value."""
-    first, *others = cells
-    for other in others:
-        first = np.where(other[0] > first[0], other, first)
-    return first

@@ -28,7 +28,7 @@ from comparisons.studies.ladder.operators import (
 )
 from comparisons.studies.model_error.account import ErrorBudget, figure_of
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS
-from comparisons.studies.model_error.model_error import ModelError, Solutions
+from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.studies.study import LADDER, Solved
 from comparisons.studies.subsurface.yielding import FlowAssessment
@@ -175,15 +175,17 @@ class Ladder:
         every = self.budget.solutions.values()
         for name in dict.fromkeys(name for solutions in every for name in solutions.effects):
             kind = NONLINEAR.get(name, LINEAR)
-            if self.budget.selection.contained == {name} or all(
-                _is_whole(name, solutions) for solutions in every
-            ):
+            levels = [level for solutions in every for level in solutions.split_levels]
+            pairs = [(level.pairs[name][0], level.whole) for level in levels if name in level.pairs]
+            is_whole = all(with_it is whole for with_it, whole in pairs)
+            if self.budget.selection.contained == {name} or is_whole:
                 continue
-            errors = [
-                solutions.of_variants(row.quantity, _with_effect(name, solutions))
-                for friction, solutions in self.budget.solutions.items()
-                for row in self._rows(friction)
-            ]
+            errors = []
+            for friction, solutions in self.budget.solutions.items():
+                # with the effect, or where it does nothing, without any
+                levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in solutions.split_levels]
+                rows = self._rows(friction)
+                errors += [solutions.of_variants(row.quantity, levels) for row in rows]
             words = f"{KINDS[kind]} alone"
             if kind == LINEAR:
                 words = f"finite elements with {EFFECTS[name].label}"
@@ -286,19 +288,6 @@ def _rung_of(
     """With what a model of the run took."""
     memory = max(level.peak_memory for level in run.levels)
     return Rung(name, kind or name, words, figures, sum(run.seconds.values()), memory)
-
-
-def _with_effect(name: str, solutions: Solutions) -> list[QuantitiesOfInterest]:
-    """The finite elements with one effect, or where it does nothing, without any."""
-    return [
-        level.pairs[name][0] if name in level.pairs else level.nothing
-        for level in solutions.split_levels
-    ]
-
-
-def _is_whole(name: str, solutions: Solutions) -> bool:
-    levels = solutions.split_levels
-    return all(level.pairs[name][0] is level.whole for level in levels if name in level.pairs)
 
 
 def kind_of(effects: Iterable[str]) -> str:

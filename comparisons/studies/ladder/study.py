@@ -51,11 +51,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         return Findings(statements=(Statement(WHY_NOT, why),))
     compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
     ladder = Ladder(solved, budget, tasks, tuple(compared), flow)
-    return _findings(ladder.rungs(), ladder.flows, before[MODEL_ERROR])
-
-
-def _findings(rungs: Sequence[Rung], flows: str, errors: Findings) -> Findings:
-    """With what suffices; `errors` of the half-plane."""
+    rungs = ladder.rungs()
     figures = tuple(figure for rung in rungs for figure in rung.figures)
     columns = {
         "rung": Column(tuple(rung.name for rung in rungs)),
@@ -64,7 +60,7 @@ def _findings(rungs: Sequence[Rung], flows: str, errors: Findings) -> Findings:
         "peak_memory": Column(tuple(rung.memory for rung in rungs), "byte"),
     }
     series = (Series(show.RUNGS, columns, is_account=True),)
-    return Findings(figures, series, tuple(_statements(rungs, errors, flows)))
+    return Findings(figures, series, tuple(_statements(rungs, before[MODEL_ERROR], ladder.flows)))
 
 
 def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Statement]:
@@ -96,17 +92,12 @@ def _worth_dropping(errors: Findings) -> str | None:
     return max(sizes, key=sizes.get, default=None)
 
 
-def _applies(solved: Solved) -> bool:
-    """Where something is judged by two models."""
-    return solved.plan.compares and bool(solved.problem.scene.tolerances)
-
-
 STUDY = Study(
     name=LADDER,
     quantities=comparison.QUANTITIES,
     solve=solve,
     begin=begin,
-    applies=_applies,
+    applies=lambda solved: solved.plan.compares and bool(solved.problem.scene.tolerances),
     blocks=show.blocks,
     lines=show.lines,
 )

@@ -105,7 +105,12 @@ def error_budget(
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
-                refined = RefinedEffects(0, _unsplit(rows), str(error), None)
+                # the models' differences as they are
+                apart = [
+                    ModelError(r.quantity, r.friction, {}, 0.0, r.value, r.numerical, r.scale)
+                    for r in rows
+                ]
+                refined = RefinedEffects(0, apart, str(error), None)
                 finest = solved.runs["finite_element"].finest
                 wholes = {mu: finest.under(mu) for mu in splits}
                 break
@@ -308,14 +313,6 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
         for row in rows
         if row.tolerance is not None
     )
-
-
-def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
-    """The models' differences as they are."""
-    return [
-        ModelError(row.quantity, row.friction, {}, 0.0, row.value, row.numerical, row.scale)
-        for row in rows
-    ]
 
 
 def _given_up(

@@ -2,7 +2,6 @@
 further level could change is no verdict."""
 
 import math
-from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -72,7 +71,10 @@ class EffectRefinement:
         self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
         self.open_laws, self.without_laws = laws, ""  # why they have no solution
         self.with_laws: dict[float, LawSolutions] = {}
-        small = {mu: _at_small_strains(split, selection) for mu, split in splits.items()}
+        # increments are checked at small strains: they are the same at finite ones
+        small = {mu: split.whole for mu, split in splits.items()}
+        if selection.whole.issuperset(NONLINEAR):
+            small = {mu: split.pairs["finite_strain"][1] for mu, split in splits.items()}
         longer = {mu: longer_increments(whole, selection) for mu, whole in small.items()}
         self.increments = {mu: (*some, small[mu]) if some else () for mu, some in longer.items()}
         self.longer: dict[float, list[QuantitiesOfInterest]] = {}
@@ -111,8 +113,11 @@ class EffectRefinement:
     def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
         for number in range(1, self.most + 1):
-            if number > LEAST_LEVELS and _is_beyond(self.solved, number, self.wholes):
-                return None
+            if number > LEAST_LEVELS:
+                # by the laws of cost: clocks would give another machine other figures
+                finer = GROWTH_OF_TIME * self.solved.expected_of(number - 1, self.wholes)
+                if spent_seconds(self.solved, number) + finer > self.problem.time:
+                    return None
             try:
                 self._take(number, alone=True)
             except NotComputedError:
@@ -196,19 +201,6 @@ class EffectRefinement:
         tolerance = self.problem.scene.tolerances
         figures = (figure_of(error, selection, tolerance) for error in errors)
         return all(figure.is_fixed for figure in figures if figure.bounds)
-
-
-def _at_small_strains(split: SplitVariants, selection: EffectSelection) -> ModelVariant:
-    """The whole, as its increments are checked: these are the same at finite strain."""
-    flows = selection.whole.issuperset(NONLINEAR)
-    return split.pairs["finite_strain"][1] if flows else split.whole
-
-
-def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
-    """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
-    give another machine other figures."""
-    finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
-    return spent_seconds(solved, number) + finer > solved.problem.time
 
 
 def spent_seconds(solved: SolvedVariants, below: int | None = None) -> float:

@@ -252,21 +252,17 @@ def waterfalls(run: Run) -> list[Waterfall]:
     panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
     names = {error.quantity for error in run.model_errors or errors}
     every = listed(run.problem.scene.load.friction)
-    for row in table_rows(errors, [name for name in QUANTITIES if name in names], _drawn_of):
+
+    def drawn_of(error: Figure) -> tuple:
+        """What a panel shows of an error: equal ones have one."""
+        return error.value, tuple(part for part in error.parts if part.name in EFFECTS)
+
+    for row in table_rows(errors, [name for name in QUANTITIES if name in names], drawn_of):
         at = "" if row.friction == every else f", μ = {row.friction}"
-        panels.append(Waterfall(label(row.quantity) + at, _steps(row.figure), row.figure))
+        steps = contributions_of(row.figure)
+        steps = {NUMERICAL: row.figure.value - sum(steps.values()), **steps}
+        panels.append(Waterfall(label(row.quantity) + at, steps, row.figure))
     return panels
-
-
-def _drawn_of(error: Figure) -> tuple:
-    """What a panel shows of an error: equal ones have one."""
-    return error.value, tuple(part for part in error.parts if part.name in EFFECTS)
-
-
-def _steps(error: Figure) -> dict[str, float]:
-    """From nothing to the error."""
-    steps = contributions_of(error)
-    return {NUMERICAL: error.value - sum(steps.values()), **steps}
 
 
 def model_error_picture(run: Run) -> style.Picture | None:

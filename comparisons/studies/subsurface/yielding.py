@@ -89,8 +89,6 @@ class FlowCheck:
     peak: float  # pressure
     # share of the contact at or above the hardness, or 3 Y; None where neither is known
     at_hardness: float | None
-    # largest peak pressure over k under which an elastic line contact shakes down
-    shakedown: float | None
 
     def over_first_flow(self, yield_stress: float) -> tuple[float, float | None]:
         """Largest stress over that of first flow by Tresca (in the plane), by von Mises."""
@@ -204,7 +202,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             if figure.quantity == "tau1_max" and limit is not None and check is flow.worst:
                 figure = replace(figure, bounds=(0.0, limit / figure.scale))
             figures.append(figure)
-        figures += figures_of(NAME, "scene", {"shakedown_limit": check.shakedown}, None, at)
+        if flow.hardness is not None:  # else nothing says what it is over
+            limits = {"shakedown_limit": shakedown_limit(check.friction)[0]}
+            figures += figures_of(NAME, "scene", limits, None, at)
         said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
@@ -279,7 +279,6 @@ def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | N
         uncertainty=uncertainty,
         peak=peak,
         at_hardness=share,
-        shakedown=None if hardness is None else shakedown_limit(friction)[0],
     )
 
 
@@ -378,7 +377,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     if flow.ratio is None:
         return said
     pressure = significant(flow.worst.peak / flow.yield_in_shear, 3)
-    limit = f"elastic shakedown up to {flow.worst.shakedown:.3g} k, k = Y/√3"
+    limit = f"elastic shakedown up to {shakedown_limit(flow.worst.friction)[0]:.3g} k, k = Y/√3"
     text = f"peak pressure {pressure} k, {limit}"
     indices = {"summits": flow.summit_index, "slope": flow.slope_index}
     known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]

@@ -6,25 +6,13 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scenes import judged
 
 from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, figures_of
 from comparisons.figures.quantity import WHOLE
 from comparisons.figures.uncertainty import Uncertainty, numerical
 
 BOUNDED = Figure("comparison", "peak_pressure", "half_plane", 0.01, {"friction": 0.1}, "other")
-
-
-def judged(value, size, most, against="finite_element", unknown=0.0):
-    return Figure(
-        study="comparison",
-        quantity="peak_pressure",
-        source="half_plane",
-        value=value,
-        against=against,
-        uncertainty=Uncertainty({"iteration": size}),
-        unknown={"flow": unknown},
-        bounds=(-most, most),
-    )
 
 
 def test_two_figures_of_one_name_are_refused():
@@ -64,15 +52,16 @@ def test_figures_of_a_kind_keep_their_order():
 )
 def test_two_sources_agree_and_what_is_judged_by_itself_holds(against, words):
     values = ((0.01, 0.01), (0.01, 0.011), (-0.031, 0.01))
-    assert tuple(judged(value, size, 0.02, against).verdict for value, size in values) == words
+    figures = (replace(judged("peak_pressure", *of), against=against) for of in values)
+    assert tuple(figure.verdict for figure in figures) == words
 
 
 def test_what_has_no_bounds_is_not_judged():
-    assert replace(judged(0.01, 0.0, 0.02), bounds=None).verdict is None
+    assert replace(judged(), bounds=None).verdict is None
 
 
 def test_a_bounded_figure_without_a_stated_uncertainty_is_inconclusive():
-    assert replace(judged(0.0, 0.0, 0.02), uncertainty=None).verdict == "inconclusive"
+    assert replace(judged(), uncertainty=None).verdict == "inconclusive"
 
 
 @given(
@@ -83,11 +72,12 @@ def test_a_bounded_figure_without_a_stated_uncertainty_is_inconclusive():
 )
 def test_a_verdict_that_is_fixed_survives_a_finer_solution(value, size, unknown, most):
     """Wherever within its uncertainty the value comes to lie, with none left."""
-    figure = judged(value, size, most, unknown=unknown)
+    beside = {"flow": unknown}, most
+    figure = judged("peak_pressure", value, size, *beside)
     if not figure.is_fixed or figure.verdict == "inconclusive":
         return
     for moved in (-size, 0.0, size):
-        finer = judged(value + moved * (1.0 - 1e-12), 0.0, most, unknown=unknown)
+        finer = judged("peak_pressure", value + moved * (1.0 - 1e-12), 0.0, *beside)
         assert finer.verdict == figure.verdict
 
 
@@ -99,9 +89,10 @@ def test_parts_are_bounds_and_add():
 
 
 def test_a_value_is_judged_over_its_scale_and_a_difference_as_it_is():
-    value = replace(judged(2e9, 0.0, 3.0), against=None, scale=1e9)
+    value = judged(value=2e9, uncertainty=0.0, tolerance=3.0)
+    value = replace(value, against=None, scale=1e9)
     assert (value.relative, value.verdict) == (2.0, "holds")
-    assert replace(judged(0.02, 0.0, 0.03), scale=1e9).relative == 0.02
+    assert replace(judged(value=0.02), scale=1e9).relative == 0.02
 
 
 def test_plain_figures_leave_out_what_is_not_known():

@@ -38,22 +38,13 @@ def test_every_effect_is_tried():
 
 @pytest.mark.parametrize("name", SWITCHED)
 def test_a_scene_with_one_switch_has_that_effect_alone(problem_with, name):
+    """Without it, it is what the half-plane takes; it is given whatever else is there."""
     scene = problem_with(**SWITCHED[name]).scene
     assert contained(scene) == {name}
     assert is_taken_apart(scene)
-
-
-@pytest.mark.parametrize("name", SWITCHED)
-def test_without_its_effects_it_is_what_the_half_plane_takes(problem_with, name):
-    scene = problem_with(**SWITCHED[name]).scene
     assert contained(plain(scene)) == frozenset()
     assert with_effects(scene, ()) == plain(scene)
     assert plain(plain(scene)) == plain(scene)
-
-
-@pytest.mark.parametrize("name", SWITCHED)
-def test_an_effect_is_given_whatever_else_is_there(problem_with, name):
-    scene = problem_with(**SWITCHED[name]).scene
     others = {"finite_strain", "exact_circle"}
     assert contained(with_effects(scene, {name, *others})) == {name, *others}
 

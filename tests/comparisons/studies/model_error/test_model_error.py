@@ -2,19 +2,21 @@
 scales."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from unittest.mock import patch
 
 import pytest
 from scenes import KNOWN_STEEL, exact_layer, refound, resolved, run_of
 
-import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.models.finite_element import level
 from comparisons.output.headline import kind_of, validity
 from comparisons.runs.run import run
+from comparisons.scenes.scene import Scene
 from comparisons.studies.study import Run
 from meshes.block import MeshError
 
@@ -163,16 +165,21 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
     assert kind_of(outcome) == "holds"
 
 
-def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
-    solve = comparisons.models.finite_element.level.finite_element_level
+def run_without(tables: dict, cannot: Callable[[Scene], bool]) -> Run:
+    """The run of a scene where some scenes of its finite elements have no mesh."""
+    solve = level.finite_element_level
 
-    def without_strain(problem, *arguments, **others):
-        if problem.scene.finite_element.deformation == "finite":
+    def solved(problem, *arguments, **others):
+        if cannot(problem.scene):
             raise MeshError("no mesh\nis possible")
         return solve(problem, *arguments, **others)
 
-    with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
-        outcome = run(resolved(smooth(2.0e9)), None, MODELS)
+    with patch.object(level, "finite_element_level", solved):
+        return run(resolved(tables), None, MODELS)
+
+
+def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
+    outcome = run_without(smooth(2.0e9), lambda s: s.finite_element.deformation == "finite")
     budget = outcome.data("model_error")
     selection = budget.selection
     assert selection.impossible["finite_strain"] == "no mesh is possible"
@@ -183,31 +190,23 @@ def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
 
 
 def test_without_a_solution_free_of_effects_nothing_is_split():
-    solve = comparisons.models.finite_element.level.finite_element_level
-
-    def bounded_alone(problem, *arguments, **others):
-        if problem.scene.body.thickness is None:
-            raise MeshError("no mesh")
-        return solve(problem, *arguments, **others)
-
     body = {**KNOWN_STEEL, "thickness": 1e-3}
-    with patch("comparisons.models.finite_element.level.finite_element_level", bounded_alone):
-        outcome = run(resolved(smooth(1.0e9, body=body)), None, MODELS)
+    outcome = run_without(smooth(1.0e9, body=body), lambda scene: scene.body.thickness is None)
     budget = outcome.data("model_error")
-    assert budget.unsplit == "no mesh" and budget.levels >= 2
+    assert budget.unsplit == "no mesh is possible" and budget.levels >= 2
     row = outcome.figures.one(study="comparison", quantity="peak_pressure")
     stated, whole = budget.of("peak_pressure", 0.0), budget.wholes[0.0]
     assert stated.effects == {} and stated.interaction == 0.0
     assert "finite_strain" in budget.selection.added
     levels = outcome.runs["half_plane"].levels  # that on the same pressure elements
-    half_plane = next(level for level in levels if level.grid == whole.grid)
-    peaks = [float(level.solution.pressure.max()) for level in (half_plane, whole)]
+    half_plane = next(one for one in levels if one.grid == whole.grid)
+    peaks = [float(one.solution.pressure.max()) for one in (half_plane, whole)]
     assert stated.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=stated.uncertainty)
     assert abs(stated.value - row.value) > 1e-4
 
 
 def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(tmp_path):
-    solve, solved = comparisons.models.finite_element.level.finite_element_level, []
+    solve, solved = level.finite_element_level, []
 
     def counted(problem, *arguments, **others):
         solved.append(problem.scene.finite_element)
@@ -217,7 +216,7 @@ def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(t
 
     scene = resolved(smooth(2.0e9))
     with (
-        patch("comparisons.models.finite_element.level.finite_element_level", counted),
+        patch.object(level, "finite_element_level", counted),
         patch("comparisons.runs.write.write_files"),
     ):
         stop = 6  # levels and the half-size block are four; the budget's second level
