@@ -184,6 +184,19 @@ def posed(run: "Run", **changes: object) -> "Run":
     return replace(run, solved=replace(run.solved, **changes))
 
 
+def with_fields(run: "Run", fields: dict[str, object]) -> "Run":
+    """A finished run that says so of its scene, with the same findings."""
+    scene = run.problem.scene.unchecked(fields)
+    return posed(run, problem=replace(run.problem, scene=scene))
+
+
+def without_cost(result: dict) -> dict:
+    """The content of a result.json without what may differ from run to run."""
+    record = {name: part for name, part in result["record"].items() if name != "made"}
+    series = [series for series in result["series"] if "is_account" not in series]
+    return result | {"record": record, "series": series}
+
+
 def unconverged(run: "Run", model: str) -> "Run":
     """A finished run whose model did not converge on its finest level."""
     from comparisons.studies import contact

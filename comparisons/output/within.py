@@ -5,9 +5,8 @@ sentence that stands first wherever a run is shown.
 
 It is the largest `Figure.reach` of the judged model errors. What else may move one of them belongs
 into its uncertainty or its estimates, where the verdict sees it, too; what leaves all of them
-unknown is one of REASONS."""
+unknown is said in its place."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Decimal
 from math import hypot, isfinite
@@ -51,7 +50,7 @@ class Within:
 
 def within_of(run: Run) -> Within:
     asked = question(run.problem.scene)
-    if why := next(filter(None, (reason(run) for reason in REASONS)), ""):
+    if why := _why_unknown(run):
         return Within(None, None, why, asked)
     largest = max(run.model_errors, key=lambda error: (not isfinite(error.reach), error.reach))
     if isfinite(largest.reach):
@@ -95,7 +94,20 @@ def size_of(run: Run, error: Figure) -> str:
     return f"{size}, {percent(others)} not modelled{by}"
 
 
-def _not_converged(run: Run) -> str:
+def _why_unknown(run: Run) -> str:
+    """Why it is not known, as a clause; nothing where that does not apply."""
+    if not run.converged:
+        return f"a solver did not converge ({', '.join(_not_converged(run))})"
+    if not run.plan.compares:
+        [name, *_] = run.runs
+        return f"only the {HYPHENATED[name]} model was run"
+    said = run.findings[yielding.NAME].said
+    at_such = None if run.problem.scene.asks_elastic else said(yielding.AT_SUCH_STRESSES)
+    flows = said(yielding.BEYOND_DOUBT) or at_such or ""
+    return flows if flows or run.model_errors else "no figure has a tolerance"
+
+
+def _not_converged(run: Run) -> list[str]:
     said = [
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for name, model in run.runs.items()
@@ -111,23 +123,4 @@ def _not_converged(run: Run) -> str:
     if run_in is not None and not run_in.converged:
         failed = sum(not one.converged for one in run_in.passes)
         said.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
-    return "" if run.converged else f"a solver did not converge ({', '.join(said)})"
-
-
-def _one_model(run: Run) -> str:
-    [name, *_] = run.runs
-    return "" if run.plan.compares else f"only the {HYPHENATED[name]} model was run"
-
-
-def _flows(run: Run) -> str:
-    said = run.findings[yielding.NAME].said
-    at_such = None if run.problem.scene.asks_elastic else said(yielding.AT_SUCH_STRESSES)
-    return said(yielding.BEYOND_DOUBT) or at_such or ""
-
-
-def _nothing_judged(run: Run) -> str:
-    return "" if run.model_errors else "no figure has a tolerance"
-
-
-# Each says of a run why it is not known, as a clause; nothing where it does not apply.
-REASONS: tuple[Callable[[Run], str], ...] = (_not_converged, _one_model, _flows, _nothing_judged)
+    return said

@@ -66,7 +66,9 @@ def rerun(
     Raises InputError for a folder without a sound record, or one that may not be written to."""
     record = read_record(folder)
     if out is not None:
-        _check_other(folder, out)
+        if out.resolve().is_relative_to(folder.resolve()):
+            raise InputError(f"--out: {out} is in the recorded folder; allowed is another folder")
+        check_writable(out)
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone
         answers = RunArrays.read(folder).answers
@@ -106,14 +108,6 @@ def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
             yield from _numbers(item, f"{path}[{number}]")
     elif isinstance(table, int | float):
         yield path, table
-
-
-def _check_other(folder: Path, out: Path) -> None:
-    """Raise InputError unless `out` can be written and is not, nor lies in, the recorded folder."""
-    recorded, wanted = folder.resolve(), out.resolve()
-    if recorded == wanted or recorded in wanted.parents:
-        raise InputError(f"--out: {out} is in the recorded folder; allowed is another folder")
-    check_writable(out)
 
 
 def _unlike(before: dict, now: dict) -> dict[str, Pair]:

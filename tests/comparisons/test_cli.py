@@ -70,16 +70,19 @@ def solver(monkeypatch, tmp_path):
     ("options", "folder", "models"),
     [
         ([], "results/smooth", MODELS),
-        (["--out", "there", "--models", "half-plane"], "there", ("half_plane",)),
+        (["--out", "a/b/c", "--models", "half-plane"], "a/b/c", ("half_plane",)),
         (["--models", "finite-element, half-plane"], "results/smooth", MODELS),
     ],
 )
-def test_run_hands_everything_on(solver, capsys, options, folder, models):
+def test_run_hands_everything_on_and_leaves_nothing(
+    solver, tmp_path, capsys, options, folder, models
+):
     assert main(["run", "smooth", *options]) == 0
     [(scene, out, taken)] = solver.calls
     assert (scene.name, out, taken) == ("smooth", Path(folder), models)
     written = f"written: {folder}/report.html, result.json and the fields beside it\n"
     assert capsys.readouterr() == (f"peak pressure agree\n{written}", "")
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("status", [0, 1, 3, 4])
@@ -160,11 +163,6 @@ def test_wrong_arguments(solver, capsys, arguments, fragment):
     assert err.startswith("crosscheck: ") and err.count("\n") == 1
     assert fragment in err
     assert solver.calls == []
-
-
-def test_checking_the_folder_leaves_nothing(solver, tmp_path):
-    assert main(["run", "smooth", "--out", "a/b/c"]) == 0
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import STEEL, as_toml
+from scenes import STEEL, as_toml, without_cost
 
 import comparisons as crosscheck
 from comparisons.campaigns.maps.map import finished_map
@@ -42,13 +42,6 @@ SCENES = {
         "resolution": {"pitch": 5e-6, "levels": 2},
     },
 }
-
-
-def without_cost(figures: dict) -> dict:
-    """The figures without what the clock and the memory told."""
-    record = {name: part for name, part in figures["record"].items() if name != "made"}
-    series = [series for series in figures["series"] if "is_account" not in series]
-    return figures | {"record": record, "series": series}
 
 
 @pytest.fixture(params=SCENES)

@@ -123,9 +123,7 @@ def test_vtu_in_pyvista(field, tmp_path):
         assert bytes(grid.field_data[name]).decode() == text
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_notes_say_units_and_scene(outcome, model):
-    field = field_of(outcome, outcome.runs[model].finest)
+def test_notes_say_units_and_scene(outcome, field):
     assert field.notes["title"] == "Waves of 1 µm & <more>"
     assert json.loads(field.notes["scene"]) == outcome.problem.surface.as_dict(
         outcome.problem.scene

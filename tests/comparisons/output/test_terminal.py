@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import pytest
 from rich.console import Console
-from scenes import posed, refound
+from scenes import refound, with_fields
 
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.terminal import SHORT, summary
@@ -121,6 +121,6 @@ def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Run], smo
 
 def test_titles_are_not_taken_for_markup(smooth_outcome: Run):
     title = {"title": "[red]Roller[/red] [/] and more"}
-    scene = smooth_outcome.problem.scene.unchecked(title)
-    outcome = posed(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
-    assert printed(outcome).startswith("[red]Roller[/red] [/] and more\n")
+    assert printed(with_fields(smooth_outcome, title)).startswith(
+        "[red]Roller[/red] [/] and more\n"
+    )

@@ -62,15 +62,10 @@ def half_plane_run(tmp_path_factory):
     return run(resolved(SMALL), tmp_path_factory.mktemp("half") / "out", ("half_plane",))
 
 
-@pytest.fixture(scope="module")
-def half_plane(half_plane_run):
-    return half_plane_run.directory
-
-
 @pytest.fixture
-def spoilable(half_plane, tmp_path):
+def spoilable(half_plane_run, tmp_path):
     """A copy to spoil."""
-    return shutil.copytree(half_plane, tmp_path / "spoilable")
+    return shutil.copytree(half_plane_run.directory, tmp_path / "spoilable")
 
 
 def peak_of(result):
@@ -106,17 +101,17 @@ def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeyp
     assert contents(both) == before
 
 
-def test_out_keeps_the_repetition(half_plane, tmp_path):
+def test_out_keeps_the_repetition(half_plane_run, tmp_path):
     again = tmp_path / "again"
-    rerun(half_plane, again)
-    assert set(contents(again)) == set(contents(half_plane))
+    rerun(half_plane_run.directory, again)
+    assert set(contents(again)) == set(contents(half_plane_run.directory))
     assert json.loads((again / "record.json").read_text())["levels"] == 3
 
 
 @pytest.mark.parametrize("out", [".", "deeper/again"])
-def test_the_recorded_folder_is_not_written_to(half_plane, out):
+def test_the_recorded_folder_is_not_written_to(half_plane_run, out):
     with pytest.raises(InputError, match=r"--out: .* is in the recorded folder"):
-        rerun(half_plane, half_plane / out)
+        rerun(half_plane_run.directory, half_plane_run.directory / out)
 
 
 @pytest.mark.parametrize("place", [0, 1])

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import QUICK, STEEL, changed, problem, resolved
+from scenes import QUICK, STEEL, changed, problem, resolved, without_cost
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
@@ -41,10 +41,7 @@ def smooth(tmp_path_factory, said):
 
 def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
-    result = json.loads(json.dumps(content_of(result_of(outcome))))
-    del result["record"]["made"]
-    result["series"] = [series for series in result["series"] if "is_account" not in series]
-    return result
+    return without_cost(json.loads(json.dumps(content_of(result_of(outcome)))))
 
 
 def values(outcome, model, friction=0.0) -> dict[str, float]:
@@ -190,20 +187,17 @@ def test_one_model_replaces_a_comparison_with_a_word(smooth, tmp_path, capsys):
     assert "replaces" not in capsys.readouterr().err
 
 
-class TestSliding:
-    def test_friction_changes_stresses_and_not_the_contact(self, tmp_path, smooth):
-        outcome = run(
-            resolved(changed(QUICK, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS
-        )
-        for model in MODELS:
-            still, sliding = (values(outcome, model, friction) for friction in (0.0, 0.1))
-            for name in ("peak_pressure", "contact_length", "peak_position"):
-                assert still[name] == sliding[name]
-            peak = outcome.problem.hertz.peak_pressure
-            assert sliding["tau1_max"] / peak == pytest.approx(0.304827336, rel=0.01)
-            assert sliding["txz_max_abs"] / peak == pytest.approx(0.280567188, rel=0.01)
-        # what the still run alone finds, the run with both finds too
-        assert values(outcome, "half_plane") == values(smooth, "half_plane")
+def test_friction_changes_stresses_and_not_the_contact(tmp_path, smooth):
+    outcome = run(resolved(changed(QUICK, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS)
+    for model in MODELS:
+        still, sliding = (values(outcome, model, friction) for friction in (0.0, 0.1))
+        for name in ("peak_pressure", "contact_length", "peak_position"):
+            assert still[name] == sliding[name]
+        peak = outcome.problem.hertz.peak_pressure
+        assert sliding["tau1_max"] / peak == pytest.approx(0.304827336, rel=0.01)
+        assert sliding["txz_max_abs"] / peak == pytest.approx(0.280567188, rel=0.01)
+    # what the still run alone finds, the run with both finds too
+    assert values(outcome, "half_plane") == values(smooth, "half_plane")
 
 
 def test_a_run_that_was_stopped_says_what_it_takes_and_goes_on(tmp_path, smooth, monkeypatch):

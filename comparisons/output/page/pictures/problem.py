@@ -35,11 +35,12 @@ def problem_picture(run: Run) -> style.Picture:
     _to_scale(to_scale, run.problem)
     stretch = _close_up(close_up, run.problem)
     body = "the rough body" if scene.profile is not None else "the smooth body"
+    radius = "" if scene.periodic else f" of radius {as_written(scene.roller.radius, 'm')}"
     frictions = listed(scene.load.friction)
     sliding = f", sliding with friction {frictions}" if any(scene.load.friction) else ""
     return style.picture(
         drawn,
-        f"A {_pressing(scene)} pressed on {body} by {_load(run.problem)}{sliding}; "
+        f"A {scene.smooth_body}{radius} pressed on {body} by {_load(run.problem)}{sliding}; "
         f"{'; '.join(_body_in_words(scene))}.",
         f"The problem. Above: to scale. Below: {scene.smooth_body} and {body} at first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
@@ -160,11 +161,6 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
     box = axes.get_position()
     wide, tall = axes.figure.get_size_inches() * (box.width, box.height)
     return (tall / (top - bottom)) / (wide / (high - low))
-
-
-def _pressing(scene: Scene) -> str:
-    radius = "" if scene.periodic else f" of radius {as_written(scene.roller.radius, 'm')}"
-    return scene.smooth_body + radius
 
 
 def _load(problem: Problem) -> str:

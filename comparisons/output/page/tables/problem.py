@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 
 from analytic.material import Material
-from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
+from analytic.surface.roughness_standard import SECTIONS
 from comparisons.common.numbers import (
     UNKNOWN,
     as_written,
@@ -171,16 +171,10 @@ def roughness_notes(info: ProfileInfo) -> Rows:
     pressed = ("as pressed", f"the whole trace{off}")
     if info.standard is None:
         return [pressed, (STANDARD, f"none: {info.standard_why}")]
-    sections = ("section lengths", sections_text(info.standard))
+    count = info.standard.sections
+    said = str(count) if count == SECTIONS else f"{count} where the standard asks for {SECTIONS}"
+    sections = ("section lengths", f"{said}, so that Rz is Rt" if count == 1 else said)
     return [pressed, (STANDARD, standard_text(info)), sections]
-
-
-def sections_text(standard: StandardRoughness) -> str:
-    """How many section lengths there are, and where they are fewer than the standard's."""
-    if standard.sections == SECTIONS:
-        return str(SECTIONS)
-    few = f"{standard.sections} where the standard asks for {SECTIONS}"
-    return f"{few}, so that Rz is Rt" if standard.sections == 1 else few
 
 
 def standard_text(info: ProfileInfo) -> str:
@@ -237,21 +231,12 @@ def _load(problem: Problem) -> Rows:
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
     rows.append(("friction coefficient µ", listed(scene.load.friction)))
     if scene.periodic:
-        period = with_unit(2.0 * hertz.half_width, "m")
-        return [
-            *rows,
-            ("period 2a", period),
-            ("mean pressure p₀", with_unit(scene.load.value, "Pa")),
-        ]
-    return [
-        *rows,
-        ("Hertz half-width a", with_unit(hertz.half_width, "m")),
-        ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
-        (
-            "largest τ₁ without friction, smooth",
-            f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}",
-        ),
-    ]
+        rows.append(("period 2a", with_unit(2.0 * hertz.half_width, "m")))
+        return [*rows, ("mean pressure p₀", with_unit(scene.load.value, "Pa"))]
+    rows.append(("Hertz half-width a", with_unit(hertz.half_width, "m")))
+    rows.append(("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")))
+    largest = f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}"
+    return [*rows, ("largest τ₁ without friction, smooth", largest)]
 
 
 def _groups(run: Run) -> Rows:

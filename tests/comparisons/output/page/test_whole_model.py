@@ -74,8 +74,8 @@ def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run, drawn_by):
     assert "whole model" not in names[0] and "whole model" in names[1]
 
 
-def test_it_is_saved(outcome: Run, tmp_path, monkeypatch, no_pictures):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+@pytest.mark.usefixtures("undrawn")
+def test_it_is_saved(outcome: Run, tmp_path):
     folder = tmp_path / "run"
     write_files(replace(outcome, directory=folder), no_progress)
     rows = np.loadtxt(folder / "whole/contact.csv", delimiter=",", skiprows=3)
@@ -86,10 +86,8 @@ def test_it_is_saved(outcome: Run, tmp_path, monkeypatch, no_pictures):
     assert np.array_equal(again.contact("whole", 0.1)["pressure"], whole.solution.pressure)
 
 
-def test_further_frictions_have_folders_of_their_own(
-    outcome: Run, tmp_path, monkeypatch, no_pictures
-):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+@pytest.mark.usefixtures("undrawn")
+def test_further_frictions_have_folders_of_their_own(outcome: Run, tmp_path):
     whole = outcome.data("model_error").wholes[0.1]
     other = replace(whole, stresses=(replace(whole.stresses[0], friction=0.0),))
     budget = replace(outcome.data("model_error"), wholes={0.0: other, 0.1: whole})

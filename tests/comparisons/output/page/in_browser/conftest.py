@@ -17,7 +17,6 @@ import pytest
 
 from comparisons.output.page.pdf import browser as installed
 from comparisons.output.page.pdf import options
-from comparisons.studies.study import Run
 
 PATIENCE = 120.0  # s, for one answer
 # The browser reads its orders from the third file that it inherits, and answers on the fourth.
@@ -188,11 +187,7 @@ def tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
 
 
 @pytest.fixture(scope="session")
-def wavy_file(
-    wavy_outcome: Run,
-    rendered: Callable[[Run], str],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Path:
+def wavy_file(wavy_outcome, rendered, tmp_path_factory) -> Path:
     """The report of a rough run with two friction coefficients, as a file."""
     page = tmp_path_factory.mktemp("wavy") / "report.html"
     page.write_text(rendered(wavy_outcome), encoding="utf-8")

@@ -1,7 +1,6 @@
 """The report as a printer gets it: whole pages of A4, nothing cut, and the command that prints."""
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 from unittest.mock import patch
 
@@ -9,7 +8,6 @@ import pytest
 
 from comparisons.output.page.page import render
 from comparisons.output.page.pdf import NoPdfError, print_pdf, print_report
-from comparisons.studies.study import Run
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0
@@ -41,12 +39,7 @@ LEAST_LETTERS = 6.0  # points
 
 
 @pytest.fixture(scope="module")
-def levels_file(
-    finish: Callable[..., Run],
-    smooth_tables: dict,
-    no_pictures: Callable[[Run], dict],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Path:
+def levels_file(finish, smooth_tables, no_pictures, tmp_path_factory) -> Path:
     """The words of the report of a run with as many levels as there are columns for."""
     page = tmp_path_factory.mktemp("levels") / "report.html"
     outcome = finish({**smooth_tables, "resolution": {"levels": 6}})
@@ -85,13 +78,6 @@ def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
     assert made == {"record.json", "report.html", "report.pdf"}  # which says whose the pdf is
 
 
-def fake(folder: Path, script: str) -> None:
-    """A browser that does something else."""
-    path = folder / "chromium"
-    path.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
-    path.chmod(0o755)
-
-
 STARTS = "case $1 in --version) exit;; esac; "
 
 
@@ -109,10 +95,11 @@ STARTS = "case $1 in --version) exit;; esac; "
     ids=["a stub", "hangs", "torn"],
 )
 def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, message):
-    tools = tmp_path / "bin"
-    tools.mkdir()
-    fake(tools, f"PATH=/usr/bin:/bin; {script}")
-    monkeypatch.setenv("PATH", str(tools))
+    browser = tmp_path / "bin" / "chromium"
+    browser.parent.mkdir()
+    browser.write_text(f"#!/bin/sh\nPATH=/usr/bin:/bin; {script}\n", encoding="utf-8")
+    browser.chmod(0o755)
+    monkeypatch.setenv("PATH", str(browser.parent))
     page, target = tmp_path / "page.html", tmp_path / "page.pdf"
     page.write_text("<p>page</p>", encoding="utf-8")
     target.write_bytes(b"before")

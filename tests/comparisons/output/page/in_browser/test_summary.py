@@ -1,6 +1,5 @@
 """The page over many runs: every run, sorted by any head, by mouse and keyboard, or as it came."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,12 +13,7 @@ ENTER = 13
 
 
 @pytest.fixture(scope="module")
-def rows(
-    wavy_outcome: Run,
-    smooth_outcome: Run,
-    finish: Callable[..., Run],
-    without_field: dict,
-) -> list[Report]:
+def rows(wavy_outcome, smooth_outcome, finish, without_field) -> list[Report]:
     layer = finish({**without_field, "title": "A <layer> & more"}, ("half_plane",))
     results = map(result_of, (wavy_outcome, layer, smooth_outcome))
     return [Report(result, Path("report.html"), cells_of(result)) for result in results]

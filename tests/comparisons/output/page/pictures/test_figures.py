@@ -48,17 +48,13 @@ def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wav
     assert hardness[:, 1] == pytest.approx(wavy_outcome.problem.scene.body.hardness / p0)
 
 
-def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
-    wavy: dict[str, list], wavy_outcome: Run
-):
+def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(wavy, wavy_outcome):
     one, other = (run.finest.solution.pressure for run in wavy_outcome.runs.values())
     drawn = wavy["pressure_picture"][0].axes[1].lines[0].get_ydata()[1:-1]
     assert drawn == pytest.approx((one - other) / wavy_outcome.problem.hertz.peak_pressure)
 
 
-def test_deformed_surfaces_coincide_where_there_is_pressure(
-    wavy: dict[str, list], wavy_outcome: Run
-):
+def test_deformed_surfaces_coincide_where_there_is_pressure(wavy, wavy_outcome):
     axes = wavy["pressure_picture"][0].axes[2]
     level = wavy_outcome.runs["half_plane"].finest
     roller, body = axes.lines[0].get_ydata(), axes.lines[1].get_ydata()
@@ -68,9 +64,7 @@ def test_deformed_surfaces_coincide_where_there_is_pressure(
     assert np.max(roller - body) == pytest.approx(np.max(level.solution.gap) / 1e-6, rel=1e-6)
 
 
-def test_sections_hold_both_fields_and_the_exact_smooth_one(
-    wavy: dict[str, list], wavy_outcome: Run
-):
+def test_sections_hold_both_fields_and_the_exact_smooth_one(wavy, wavy_outcome):
     hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
     through_edge = wavy["section_pictures"][1]
     column = int(np.argmin(np.abs(window.x - hertz.half_width)))
@@ -85,9 +79,7 @@ def test_sections_hold_both_fields_and_the_exact_smooth_one(
         assert line(axes, "Hertz, exact")[:, 1] == pytest.approx(exact / hertz.peak_pressure)
 
 
-def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
-    wavy: dict[str, list], wavy_outcome: Run
-):
+def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(wavy, wavy_outcome):
     mesh = wavy_outcome.runs["finite_element"].finest.mesh
     whole = wavy["mesh_pictures"][0].axes[0]
     low, high = whole.get_ylim()

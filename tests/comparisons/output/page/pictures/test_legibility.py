@@ -4,6 +4,7 @@ from itertools import combinations
 
 import pytest
 from matplotlib.transforms import Bbox
+from scenes import with_fields
 
 from comparisons.output.page.pictures.answer import judged_picture
 from comparisons.output.page.pictures.problem import problem_picture
@@ -31,10 +32,10 @@ def lines_of(text) -> list[Bbox]:
 
 @pytest.mark.parametrize("friction", [(0.1,), (0.0, 0.1), (0.05, 0.2, 0.4)])
 @pytest.mark.parametrize("thickness", [None, 2e-3])
-def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, with_scene, friction, thickness):
+def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, friction, thickness):
     fields = {"coating": HARD, "load.friction": friction, "body.thickness": thickness}
     fields["body.base"] = None if thickness is None else "frictionless"
-    [figure], _ = drawn_by(problem_picture, with_scene(wavy_outcome, fields))
+    [figure], _ = drawn_by(problem_picture, with_fields(wavy_outcome, fields))
     axes = figure.axes[0]
     texts = [text for text in axes.texts if text.get_text()]
     assert len(texts) == 4  # load, roller, body, traction
@@ -85,9 +86,9 @@ def test_names_of_lines_stand_inside_the_frame_and_words_of_bars_on_a_telephone(
         assert text.get_window_extent().x1 < SEEN * judged.bbox.width
 
 
-def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by, with_scene):
+def test_the_name_of_a_bar_and_its_error_stand_apart(wavy_outcome, drawn_by):
     """Where several friction coefficients make the names long."""
-    outcome = with_scene(wavy_outcome, {"load.friction": (0.05, 0.125)})
+    outcome = with_fields(wavy_outcome, {"load.friction": (0.05, 0.125)})
     [figure], _ = drawn_by(judged_picture, outcome)
     texts = [text for text in figure.axes[0].texts if text.get_text()]
     assert len(texts) == 2 * len(outcome.model_errors)

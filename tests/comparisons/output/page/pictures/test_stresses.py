@@ -14,9 +14,7 @@ from comparisons.output.page.pictures.stresses import field_pictures
 from comparisons.studies.study import Run
 
 
-def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
-    wavy: dict[str, list],
-):
+def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(wavy):
     for figure in wavy["field_pictures"]:
         both, difference = (scale.norm.boundaries for scale in scales_of(figure))
         assert difference == pytest.approx(-difference[::-1])
