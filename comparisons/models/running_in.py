@@ -33,8 +33,14 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
         return surface
     radius = scene.roller.radius
     modulus = combined_modulus(scene.roller.material, scene.body.material)
-    load = _load(scene, modulus)
-    pitch = _pitch(profile, hertz_from_load(load, radius, modulus).half_width)
+    load = settings.load or scene.load.value  # its own, or the scene's
+    if settings.load is None and scene.load.kind != "per_length":
+        load = hertz_from_peak_pressure(load, radius, modulus).load_per_length
+    half_width = hertz_from_load(load, radius, modulus).half_width
+    wanted = min(_wanted(profile), half_width / SMOOTH_HATS)
+    wanted = max(wanted, 2.0 * half_width / MOST_HATS)
+    # the sample spacing over a power of two, or times one where there would be too many
+    pitch = profile.spacing * 2.0 ** round(np.log2(wanted / profile.spacing))
     count = profile.length / pitch
     if not FEWEST_HATS <= count <= MOST_ON_TRACE:
         raise SceneError(
@@ -52,24 +58,6 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
         raise SceneError(f"{where}: {error}; allowed is more") from error
     info = replace(surface.info, roughness=roughness(done.profile))
     return replace(surface, profile=done.profile, info=info, run_in=done)
-
-
-def _load(scene: Scene, modulus: float) -> float:
-    """[N/m]: running-in's own, or the scene's."""
-    if scene.running_in.load is not None:
-        return scene.running_in.load
-    if scene.load.kind == "per_length":
-        return scene.load.value
-    hertz = hertz_from_peak_pressure(scene.load.value, scene.roller.radius, modulus)
-    return hertz.load_per_length
-
-
-def _pitch(profile: Profile, half_width: float) -> float:
-    """[m], the sample spacing over a power of two, or times one where there would be too many."""
-    spacing = profile.spacing
-    wanted = min(_wanted(profile), half_width / SMOOTH_HATS)
-    wanted = max(wanted, 2.0 * half_width / MOST_HATS)
-    return spacing * 2.0 ** round(np.log2(wanted / spacing))
 
 
 def _wanted(profile: Profile) -> float:

@@ -180,7 +180,21 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
     level, half_width = run.finest, problem.hertz.half_width
     levels = [values_of(level, problem, friction) for level in run.levels]
     stated = uncertainties(run, problem, friction)
-    values, places = _further(problem, run, friction)
+    peak, stress = peak_position(level), level.stress(friction)
+    # what is not compared [SI], and the places [m] of largest values
+    values = {
+        "contact_ratio": level.contact_length / (2.0 * half_width),
+        "contact_ratio_extent": level.contact_length / level.extent,
+        "peak_position": peak,
+        "load_per_length": level.solution.load,
+    }
+    if no_approach(problem, run) is None:
+        values["approach"] = level.solution.approach - problem.first_touch
+    places: dict[str, tuple[float, ...]] = {"peak_pressure": (peak,)}
+    if stress is not None:
+        values["von_mises_max"] = abs(stress.extremes["von_mises"].value)
+        for name, key in EXTREMES.items():
+            places[name] = (stress.extremes[key].x, stress.extremes[key].z)
     # what no sequence of levels is known of: a load that finite elements find, an approach
     worst = Uncertainty(max(stated.values(), key=lambda u: u.total).parts)
     exact = problem.scene.load.kind != "approach"
@@ -207,29 +221,6 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
             levels=tuple(values[name] for values in levels) if name in levels[-1] else (),
             notes=("capped",) if capped else (),
         )
-
-
-def _further(
-    problem: Problem, run: ModelRun, friction: float
-) -> tuple[dict[str, float], dict[str, tuple[float, ...]]]:
-    """What is not compared [SI], and the places [m] of largest values."""
-    level = run.finest
-    peak = peak_position(level)
-    values = {
-        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
-        "contact_ratio_extent": level.contact_length / level.extent,
-        "peak_position": peak,
-        "load_per_length": level.solution.load,
-    }
-    if no_approach(problem, run) is None:
-        values["approach"] = level.solution.approach - problem.first_touch
-    places: dict[str, tuple[float, ...]] = {"peak_pressure": (peak,)}
-    stress = level.stress(friction)
-    if stress is not None:
-        values["von_mises_max"] = abs(stress.extremes["von_mises"].value)
-        for name, key in EXTREMES.items():
-            places[name] = (stress.extremes[key].x, stress.extremes[key].z)
-    return values, places
 
 
 def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:

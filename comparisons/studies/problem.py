@@ -59,7 +59,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         peaks = [f for f in known if f.quantity == "peak_pressure"]
         over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / hardness}
         figures += figures_of(NAME, SCENE, over, _largest(peaks))
-    figures += _surface(problem)
+    if (info := problem.surface.info) is not None:  # as pressed, and by the standard
+        filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
+        figures += figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
+        if info.standard is not None:
+            figures += figures_of(NAME, STANDARD, asdict(info.standard))
     levels = [asdict(level) for level in forecast(problem, solved.plan).levels]
     columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
     planned = Series("planned levels", columns, is_account=True)
@@ -83,18 +87,6 @@ def _groups(problem: Problem) -> dict[str, float | None]:
         "max_slope": None if roughness is None else roughness.max_slope,
         "friction_dundurs": max(scene.load.friction) * problem.dundurs_beta,
     }
-
-
-def _surface(problem: Problem) -> list[Figure]:
-    """The surface's figures, as pressed and by the standard."""
-    info = problem.surface.info
-    if info is None:
-        return []
-    filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
-    figures = figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
-    if info.standard is not None:
-        figures += figures_of(NAME, STANDARD, asdict(info.standard))
-    return figures
 
 
 def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statement]:

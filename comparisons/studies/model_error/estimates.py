@@ -45,7 +45,7 @@ def estimates(
     estimate = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),
-        "exact_circle": _exact_circle(problem),
+        "exact_circle": _equal(CIRCLE * _curvature(problem) ** 2),
         "finite_roller": _finite_roller(problem),
         "roller_support": _roller_support(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
@@ -129,12 +129,6 @@ def _finite_deformation(problem: Problem, peak: float) -> Sizes:
 
 # The circle's next term is x^4 / (8 R^3): a^2 / (4 R^2) of the parabola at the contact's edge.
 CIRCLE = 0.25
-
-
-def _exact_circle(problem: Problem) -> Sizes:
-    return _equal(CIRCLE * _curvature(problem) ** 2)
-
-
 # A disc in place of a half-plane: of a polymer 0.52 (a/R)^2 as a sector, -0.33 held opposite the
 # contact, 0.72 on a hub of half the radius; on larger hubs 0.25 to 0.34 times the square of a over
 # the ring's thickness.

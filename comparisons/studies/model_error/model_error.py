@@ -7,7 +7,7 @@ effects. A largest value is followed asperity by asperity, and the whole's is th
 in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
 value at another one, what lies between the two is the jump, no effect."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -221,21 +221,18 @@ class Solutions:
         changes = [level.effect(effect) for level in self.split_levels]
         size, pair = self._estimate(name, changes, at), self.split_levels[-1].pairs[effect]
         if effect in OF_SIZE:
-            size = replace(size, uncertainty=size.uncertainty + self._domain(name, effect, at))
+            # of the far boundary of the solution without it; unknown where none is nearer
+            domain = np.inf
+            if effect in self.nearer:
+                ends = self.nearer[effect], self.split_levels[0].pairs[effect][1]
+                domain = far_boundary(*(solution.figures[name][at] for solution in ends))
+                domain /= self._scale_of(name, at)
+            size = replace(size, uncertainty=size.uncertainty + domain)
         with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
         if with_it is None:
             return size
         certain = with_it.max() / (1.0 + max(size.uncertainty, numerical))  # which may be infinite
         return replace(size, moves_maximum=bool(certain > with_it[np.argmax(without)]))
-
-    def _domain(self, name: str, effect: str, at: int) -> float:
-        """What the far boundary of the solution without an effect of size may change, relative;
-        unknown where none is nearer."""
-        if effect not in self.nearer:
-            return np.inf
-        first = self.split_levels[0].pairs[effect][1]
-        values = (solution.figures[name][at] for solution in (self.nearer[effect], first))
-        return far_boundary(*values) / self._scale_of(name, at)
 
     def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""
@@ -272,12 +269,28 @@ class Solutions:
         """What asperities that may have the largest value add to the uncertainty of a figure [SI].
 
         numerical  of the figure, relative"""
-        largest = LARGEST[name]
+        largest, whole = LARGEST[name], self.whole.figures
         stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
         alone = stated[largest].total  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
         beside = self.missing if self.longer is None else self.wholes
-        return _competing(self.whole, name, at, alone, lambda k: self._estimate(largest, beside, k))
+        values, top = whole[largest], whole[largest][at]
+
+        def missing(k: int) -> float:
+            """By asperity, how sure is what the whole has beside them."""
+            return self._estimate(largest, beside, k).uncertainty
+
+        if not np.isfinite(alone + missing(at)):
+            return 0.0  # it is unknown already
+
+        def doubt(k: int) -> float:
+            return alone * abs(values[k]) + missing(k) * abs(top)
+
+        least = top - doubt(at)
+        near = [k for k in np.flatnonzero(values > NEAR * top) if values[k] + doubt(k) >= least]
+        if name == largest:
+            return max(values[k] + doubt(k) for k in near) - top - doubt(at)
+        return max(abs(whole[name][k] - whole[name][at]) for k in near)
 
     def _jump(
         self, name: str, numerical: float, at: int
@@ -336,32 +349,6 @@ class Solutions:
         return ModelError(
             name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
         )
-
-
-def _competing(
-    whole: QuantitiesOfInterest,
-    name: str,
-    at: int,
-    numerical: float,
-    missing: Callable[[int], Estimate],
-) -> float:
-    """What asperities that may have the largest value add to the uncertainty of a figure [SI].
-
-    numerical  relative uncertainty of the scene's own finite elements
-    missing    by asperity, what the whole has beside these, relative to the largest value"""
-    values = whole.figures[LARGEST[name]]
-    top = values[at]
-    if not np.isfinite(numerical + missing(at).uncertainty):
-        return 0.0  # it is unknown already
-
-    def doubt(k: int) -> float:
-        return numerical * abs(values[k]) + missing(k).uncertainty * abs(top)
-
-    least = top - doubt(at)
-    near = [k for k in np.flatnonzero(values > NEAR * top) if values[k] + doubt(k) >= least]
-    if name == LARGEST[name]:
-        return max(values[k] + doubt(k) for k in near) - top - doubt(at)
-    return max(abs(whole.figures[name][k] - whole.figures[name][at]) for k in near)
 
 
 def _scale(figure: float, name: str, problem: Problem) -> float:

@@ -109,12 +109,6 @@ class FlowAssessment:
     # G/(2 pi) [Pa], above which no crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609);
     # infinite for a body below STIFF
     ideal_strength: float
-    # (E*/H) sqrt(s/R): s standard deviation of the trace's summits, 1/R their mean curvature
-    # (Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319)
-    summit_index: float | None
-    # (E*/H) times the rms slope (Mikic 1974, Int. J. Heat Mass Transfer 17, 205-214); None without
-    # trace or H, and the first where all summits are as high
-    slope_index: float | None
     checks: tuple[FlowCheck, ...]  # one a friction coefficient
     asked: bool = True  # whether the question is of bodies that flow where they would
 
@@ -182,9 +176,16 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         "yield_stress": flow.yield_stress,
         "hardness": flow.hardness,
         "ideal_strength": flow.ideal_strength,
-        "plasticity_index_summits": flow.summit_index,
-        "plasticity_index_slope": flow.slope_index,
     }
+    profile = solved.problem.surface.profile
+    if flow.hardness is not None and profile is not None:
+        # Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319; Mikic 1974, Int. J. Heat Mass
+        # Transfer 17, 205-214; the first not where all summits are as high
+        (spread, curvature), relative = summits(profile), solved.problem.modulus / flow.hardness
+        if spread > LEVEL * np.ptp(profile.height):
+            of_scene["plasticity_index_summits"] = relative * np.sqrt(spread * curvature)
+        slope = solved.problem.surface.info.roughness.rms_slope
+        of_scene["plasticity_index_slope"] = relative * slope
     figures, said = figures_of(NAME, "scene", of_scene), [Statement("flow", flow.flow)]
     limit = flow.exceeded if solved.plan.compares else None
     for check in flow.checks:
@@ -231,17 +232,10 @@ def _figures_of_flow(problem: Problem, budget: ErrorBudget) -> list[Figure]:
 def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
     """Of the half-plane where it was solved, else of the finite elements."""
     scene, run = problem.scene, runs.get("half_plane") or next(iter(runs.values()))
-    plastic, profile = scene.finite_element.plastic, problem.surface.profile
+    plastic = scene.finite_element.plastic
     yield_stress, hardness = scene.body.yield_stress, scene.body.hardness
     hardness = hardness or (yield_stress and TABOR * yield_stress)
     yield_stress = yield_stress or (hardness and hardness / TABOR)
-    summit = slope = None
-    if hardness and profile is not None:
-        spread, curvature = summits(profile)
-        relative = problem.modulus / hardness
-        if spread > LEVEL * np.ptp(profile.height):
-            summit = float(relative * np.sqrt(spread * curvature))
-        slope = relative * problem.surface.info.roughness.rms_slope
     return FlowAssessment(
         flow="plastic" if plastic else "elastic" if scene.body.hardness is None else "cap",
         yield_stress=yield_stress,
@@ -249,8 +243,6 @@ def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAsses
         ideal_strength=scene.body.material.shear_modulus / (2.0 * pi)
         if scene.body.youngs_modulus > STIFF
         else inf,
-        summit_index=summit,
-        slope_index=slope,
         checks=tuple(_check(problem, run, mu, hardness) for mu in scene.load.friction),
         asked=not scene.asks_elastic,
     )
@@ -379,8 +371,10 @@ def lines(run: Run) -> list[tuple[str, str]]:
     pressure = significant(flow.worst.peak / flow.yield_in_shear, 3)
     limit = f"elastic shakedown up to {shakedown_limit(flow.worst.friction)[0]:.3g} k, k = Y/√3"
     text = f"peak pressure {pressure} k, {limit}"
-    indices = {"summits": flow.summit_index, "slope": flow.slope_index}
-    known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
+    known, figures = [], run.figures.of(study=NAME)
+    for word in ("summits", "slope"):
+        if (index := figures.one(quantity=f"plasticity_index_{word}")) is not None:
+            known.append(f"{significant(index.value, 2)} ({word})")
     return [*said, ("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
 
 

@@ -101,11 +101,12 @@ def test_a_rough_body_at_its_cap(wavy_outcome, finish):
 
 def test_plasticity_indices_of_a_wave(wavy_outcome):
     """Its summits are all as high; its rms slope is 2 pi/sqrt(2) amplitude/wavelength."""
-    flow = wavy_outcome.data("yield")
+    known = wavy_outcome.figures.of(study="yield")
     slope = np.sqrt(2.0) * np.pi * 0.2e-6 / 50e-6
-    assert flow.summit_index is None
+    assert known.one(quantity="plasticity_index_summits") is None
     # the trace is no whole number of waves
-    assert flow.slope_index == pytest.approx(wavy_outcome.problem.modulus / 4e9 * slope, rel=1e-2)
+    index = known.one(quantity="plasticity_index_slope").value
+    assert index == pytest.approx(wavy_outcome.problem.modulus / 4e9 * slope, rel=1e-2)
 
 
 def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish, smooth_tables):

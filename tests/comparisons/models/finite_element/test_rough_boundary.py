@@ -37,20 +37,6 @@ def problem_with(profile: dict, **finite_element) -> Problem:
     return problem(tables)
 
 
-def self_affine(slope: float, length: float, seed: int) -> Problem:
-    return problem_with(
-        {
-            "kind": "self-affine",
-            "hurst": 1.0,
-            "rms_slope": slope,
-            "samples": round(length / 1e-6) + 1,
-            "length": length,
-            "shortest_wavelength": 2e-5,
-            "seed": seed,
-        }
-    )
-
-
 def mesh_of(problem: Problem, pitch: float, contact: float = 0.7) -> BlockMesh:
     """Of a level on which contact is predicted on this part of the smooth one."""
     patches = contact * problem.hertz.half_width * np.array([[-1.0, 1.0]])
@@ -80,7 +66,9 @@ def test_every_hat_lies_on_the_trace(level):
 def test_fading_roughness_leaves_elements_fit_on_every_level(slope, length, seed, levels):
     """Refinement must not make them worse, as it does where the fading gets shorter with it; nor
     do high long waves fade steeply: at the contact's ends they stand far above the mean line."""
-    problem = self_affine(slope, length, seed)
+    waves = {"kind": "self-affine", "hurst": 1.0, "rms_slope": slope, "seed": seed}
+    ends = {"samples": round(length / 1e-6) + 1, "length": length, "shortest_wavelength": 2e-5}
+    problem = problem_with(waves | ends)
     for pitch in problem.pitches[0] / 2.0 ** np.arange(levels):
         mesh = mesh_of(problem, pitch)
         assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
