@@ -6,6 +6,7 @@ has a scatter s, ours an uncertainty U: they agree within s + U and differ beyon
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -33,13 +34,8 @@ beyond the scatter by three times it."""
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    known = Figures(
-        figure
-        for study in (contact.NAME, partial_slip.NAME)
-        if study in before
-        for figure in before[study].figures
-    )
-    known = Figures((*known, *_lowering(solved)))
+    studies = [before[name] for name in (contact.NAME, partial_slip.NAME) if name in before]
+    known = Figures(chain(*(study.figures for study in studies), _lowering(solved)))
     figures = []
     for name, section in solved.problem.scene.published.items():
         ours = known.of(quantity=section.quantity, against=None)

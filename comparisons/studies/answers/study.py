@@ -120,10 +120,7 @@ def _tables_of(answer: str, tables: Mapping[str, list[dict]]) -> Iterator[Series
 def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict[str, float]:
     """The compared quantities of an answer, as `values_of` has those of a model."""
     length = float(np.ptp(answer.patches, axis=1).sum())
-    values = {
-        "peak_pressure": float(answer.pressure.max()),
-        "contact_length": length,
-    }
+    values = {"peak_pressure": float(answer.pressure.max()), "contact_length": length}
     stress = answer.stress
     if stress is not None and stress.friction == friction:
         values["tau1_max"] = stress.extremes["tau1"].value

@@ -50,13 +50,10 @@ COMPARED = tuple(QUANTITIES)[:9]  # judged where both models have them
 OF_FLOW = "of a body that flows what sticks is not known: remove plastic"
 LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
 # Of the largest stress of the surface: how well it is read at an end of contact, where it is a cusp
-# (`analytic.contact.end_stress`; 8e-4 off the exact one at 77 elements to a half-width)
+# (`analytic.contact.end_stress`; 8e-4 off the exact one at 77 elements to a half-width); and by
+# which power of that stress figures go
 END_READ = 1.5e-3
-AT_AN_END = {
-    "edge_tension": 1.0,
-    "ruiz": 1.0,
-    "smith_watson_topper": 2.0,
-}  # by which power of that stress
+AT_AN_END = {"edge_tension": 1.0, "ruiz": 1.0, "smith_watson_topper": 2.0}
 Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
 
 
@@ -87,16 +84,14 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         said.append(Statement(WHY_NOT, OF_FLOW, "finite_element", at))
     figures, series = list(_figures(solved, models)), []
     for name, model in models.items():
-        series += _series(
-            name, model.finest, path, at, Figures(figures).of(source=name, against=None)
-        )
+        known = Figures(figures).of(source=name, against=None)
+        series += _series(name, model.finest, path, at, known)
     outside = before.get(answers.NAME)
     if outside is not None and models:
         name, model = list(models.items())[-1]
         stuck = Figures(figures).one(quantity="stick_length", source=name, against=None)
         slip = problem.scene.partial_slip
-        outside = outside_figures(outside.data, model.levels, stuck, slip.tolerance)
-        figures += outside
+        figures += outside_figures(outside.data, model.levels, stuck, slip.tolerance)
     finest = {name: model.finest for name, model in models.items()}
     return Findings(tuple(figures), tuple(series), tuple(said), finest)
 

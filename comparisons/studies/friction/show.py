@@ -3,8 +3,6 @@
 In: a run with [partial_slip]. Out: a table, facts, pictures of the tractions and of the loop, a
 line."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from comparisons.common.numbers import listed, percent, plain, scale_of, with_unit
@@ -23,9 +21,6 @@ from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.friction.half_planes import SlippedLevel, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
 from comparisons.studies.study import WHY_NOT, Run
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 NOTE = """Tractions at the end of the path of loads, at the scene's largest friction coefficient:
 where the surfaces stick |q| < μp, where they slip |q| = μp. Of alike half-planes q is the
@@ -62,9 +57,11 @@ def blocks(run: Run) -> list[Block]:
 def slip_facts(run: Run) -> list[tuple[str, str]]:
     """The path of loads, what sticks, and what is not modelled."""
     scene, known = run.problem.scene, run.figures.of(study=NAME)
-    slip, facts = scene.partial_slip, []
-    facts.append(("tangential load over that of sliding", listed(slip.path)))
-    facts.append(("friction", plain(run.problem.largest_friction)))
+    slip, reference = scene.partial_slip, list(run.data(NAME))[-1]  # of answers from outside
+    facts = [
+        ("tangential load over that of sliding", listed(slip.path)),
+        ("friction", plain(run.problem.largest_friction)),
+    ]
     if slip.bulk_stress:
         facts.append(("bulk stress at the largest load", with_unit(slip.bulk_stress, "Pa")))
     if last_visit(slip.path) is not None:
@@ -75,18 +72,13 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
         facts.append((f"sticks ({LABELS[figure.source]})", zones))
     for figure in known.of(quantity="stick_length", against=None):
         if figure.source not in MODELS:
-            difference = known.one(quantity="stick_length", source=figure.source, against=last(run))
+            difference = known.one(quantity="stick_length", source=figure.source, against=reference)
             length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
-            said = f"{length}, {difference.words()} against the {LABELS[last(run)]}"
+            said = f"{length}, {difference.words()} against the {LABELS[reference]}"
             said += f", {difference.verdict}"
             facts.append((f"sticks ({figure.source}, from outside)", said))
     why = run.findings[NAME].said(WHY_NOT)
     return facts + ([("not modelled", why)] if why else [])
-
-
-def last(run: Run) -> str:
-    """The model that answers from outside are compared with."""
-    return list(run.data(NAME))[-1]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -138,10 +130,6 @@ def tractions_picture(run: Run) -> style.Picture:
         f"Traction on the body under {share} of the load that makes it slide, between the limits "
         "that friction sets, dotted. Bars below: the zones that stick, a row for each model."
     )
-    return style.picture(_tractions(run), caption, caption)
-
-
-def _tractions(run: Run) -> "Figure":
     levels = run.data(NAME)
     abreast, room = names_above(style.COLUMN, 2 * len(levels))
     drawn, [panel] = panels(style.COLUMN, [(room, 2.5)])
@@ -164,7 +152,7 @@ def _tractions(run: Run) -> "Figure":
     panel.set_ylabel("traction [MPa]")
     over([panel], f"x [{unit.name}]", next(iter(places.values())))
     legend_above(panel, abreast)
-    return drawn
+    return style.picture(drawn, caption, caption)
 
 
 def loop_picture(run: Run) -> style.Picture | None:

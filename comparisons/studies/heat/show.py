@@ -3,7 +3,6 @@
 In: a run with [heat]. Out: a table, facts, pictures of both surfaces and below, lines."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,9 +24,6 @@ from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.studies.heat.half_space import HEATED, WITHOUT, reach_of
 from comparisons.studies.heat.study import COMPARED, NAME, OTHER_PRESSURES, QUANTITIES
 from comparisons.studies.study import Run
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 HEIGHT = 1.9  # inches, of a field
 RULES = {
@@ -142,12 +138,6 @@ def surfaces_picture(run: Run) -> style.Picture:
     )
     caption += " Last, σx of the body's surface; wide and pale: without heat." * bool(stresses)
     words = f"Rise of both surfaces' temperatures over x. Largest: {largest}."
-    return style.picture(_surfaces(run), words, caption)
-
-
-def _surfaces(run: Run) -> "Figure":
-    """Rise, heat and stresses; pale: of the roller, all heat, without heat."""
-    contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
     abreast, room = names_above(style.WIDE, 2 * len(contacts))
     rows = [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2]
     drawn, axes = panels(style.WIDE, rows)
@@ -168,7 +158,7 @@ def _surfaces(run: Run) -> "Figure":
         panel.set_ylabel(name)
     over(axes, f"x [{unit.name}]", next(iter(contacts.values())).x / unit.factor)
     legend_above(axes[0], abreast)
-    return drawn
+    return style.picture(drawn, words, caption)
 
 
 def below_pictures(run: Run) -> list[style.Picture]:

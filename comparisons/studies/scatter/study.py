@@ -96,7 +96,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             drawn = values[np.isfinite(values)]
             if drawn.size:
                 parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
-                spread = _spread(drawn, parts)
+                deviation = float(drawn.std(ddof=1)) if drawn.size > 1 else 0.0
+                ends = tuple(map(float, _interval(drawn)))
+                spread = SampleSpread(float(drawn.mean()), deviation, ends, parts)
                 samples = len(answers) - len(failures)
                 figures.append(scattered(quantity, friction, float(value), spread, samples))
     counts = {"samples": wanted.samples, "solutions": len(answers), "failed": len(failures)}
@@ -150,12 +152,6 @@ def _tasks(solved: Solved, tasks: Tasks) -> Tasks:
     if solved.opens is None:
         return tasks
     return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))
-
-
-def _spread(drawn: np.ndarray, parts: dict | None) -> SampleSpread:
-    deviation = drawn.std(ddof=1) if drawn.size > 1 else 0.0
-    ends = tuple(map(float, _interval(drawn)))
-    return SampleSpread(float(drawn.mean()), float(deviation), ends, parts)
 
 
 def _band(problem: Problem, batches: list[dict]) -> PressureBand:
@@ -329,15 +325,13 @@ def beside_inputs(run: Run, quantity: str, friction: float) -> str:
     return f"{inputs}: the half-plane's model error of {shown} {how}."
 
 
-def _applies(solved: Solved) -> bool:
-    return solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
-
-
 STUDY = Study(
     name=NAME,
     quantities=QUANTITIES,
     solve=solve,
-    applies=_applies,
+    applies=lambda solved: (
+        solved.problem.scene.scatter is not None and "half_plane" in solved.plan.models
+    ),
     begin=begin,
     blocks=blocks,
     lines=lines,

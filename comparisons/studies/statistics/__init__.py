@@ -2,18 +2,15 @@
 
 from comparisons.studies.statistics import show
 from comparisons.studies.statistics.study import NAME, begin, solve
-from comparisons.studies.study import Solved, Study
-
-
-def _applies(solved: Solved) -> bool:
-    return solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
-
+from comparisons.studies.study import Study
 
 STUDY = Study(
     name=NAME,
     quantities={},
     solve=solve,
-    applies=_applies,
+    applies=lambda solved: (
+        solved.problem.scene.statistics is not None and "half_plane" in solved.plan.models
+    ),
     begin=begin,
     blocks=show.blocks,
     pictures={"statistics": show.statistics_pictures},

@@ -5,7 +5,6 @@ import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from unittest.mock import patch
 
 import meshio
 import numpy as np
@@ -51,7 +50,8 @@ S
 """
 
 
-def block(hertz):
+@pytest.fixture(scope="module")
+def mesh(hertz):
     """A structured mesh of quadratic triangles, finer towards the contact."""
     fine = np.linspace(-1.5, 1.5, 31)
     far = 1.5 + 0.1 * np.cumsum(1.5 ** np.arange(1, 11))
@@ -60,16 +60,16 @@ def block(hertz):
     return structured(hertz.half_width * x, hertz.half_width * z)
 
 
-@pytest.fixture
-def in_this_process():
-    """Whole files are read without another process, whose start takes far longer."""
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch):
+    """Whole files are read without another process, whose start takes far longer; a test that asks
+    for one undoes it."""
 
     def here(command, **others):
         _, _, _, path, out, *step = command
         _write_faces(Path(path), Path(out), int(step[0]) if step else None)
 
-    with patch("comparisons.studies.answers.meshes.said_by", here):
-        yield
+    monkeypatch.setattr("comparisons.studies.answers.meshes.said_by", here)
 
 
 def upright(mesh):
@@ -107,6 +107,12 @@ def tensor(stress, vertical="y", sign=1.0):
     return np.column_stack([stress.sx, zero, stress.sz, zero, zero, -sign * stress.txz])
 
 
+@pytest.fixture(scope="module")
+def stress(mesh, hertz):
+    """Hertz' exact one without friction, y up."""
+    return tensor(exact(mesh, hertz))
+
+
 def holds(answer, hertz, near=0.02):
     peak = answer.on(np.zeros(1))[0]
     assert peak == pytest.approx(hertz.peak_pressure, rel=near)
@@ -115,10 +121,8 @@ def holds(answer, hertz, near=0.02):
     assert answer.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
 
 
-@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("up", ["y", "-y", "z", "-z"])
-def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
-    mesh = block(hertz)
+def test_any_axis_may_point_out_of_the_body(mesh, hertz, tmp_path, up):
     sign = -1.0 if up.startswith("-") else 1.0
     (x, z), zero = mesh.points.T, np.zeros(len(mesh.points))
     columns = [x, -sign * z, zero] if up[-1] == "y" else [x, zero, -sign * z]
@@ -133,10 +137,8 @@ def test_any_axis_may_point_out_of_the_body(hertz, tmp_path, up):
         assert np.sign(np.nansum(right)) == np.sign(known.sum())
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_friction_keeps_its_direction(hertz, tmp_path):
+def test_friction_keeps_its_direction(mesh, hertz, tmp_path):
     """The shear on the top is minus the traction's: sliding that pulls towards +x."""
-    mesh = block(hertz)
     stress = tensor(exact(mesh, hertz, 0.2))
     section = vtu(tmp_path / "a.vtu", upright(mesh), mesh.triangles, stress)
     answer = read(section, load=QUICK["load"] | {"friction": 0.2})
@@ -145,10 +147,8 @@ def test_friction_keeps_its_direction(hertz, tmp_path):
     assert answer.stress.field.txz[0, middle] == pytest.approx(expected[0], rel=0.02)
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
-    mesh = block(hertz)
-    body, stress = upright(mesh), tensor(exact(mesh, hertz))
+def test_the_roller_in_the_same_file_is_left_out(mesh, stress, hertz, tmp_path):
+    body = upright(mesh)
     points = np.vstack([body * [0.2, -0.2, 1.0], body])
     triangles = np.vstack([mesh.triangles, mesh.triangles + len(body)])
     section = vtu(tmp_path / "a.vtu", points, triangles, np.vstack([7.0 * stress, stress]))
@@ -156,12 +156,11 @@ def test_the_roller_in_the_same_file_is_left_out(hertz, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def solved_by_calculix(hertz, tmp_path_factory):
+def solved_by_calculix(mesh, hertz, tmp_path_factory):
     """`solved_by_calculix(flag)`: the result file of a pressed body."""
     if shutil.which("ccx") is None:
         pytest.skip(NO_CCX)
     pytest.importorskip("pyvista_frd", reason="no pyvista-frd-reader: pip install")
-    mesh = block(hertz)
     x, y = 1e3 * mesh.points[:, 0], -1e3 * mesh.points[:, 1]
     triangles = mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
     loads, halves = [], []
@@ -194,7 +193,6 @@ def solved_by_calculix(hertz, tmp_path_factory):
     return solved
 
 
-@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("flag", [",OUTPUT=2D", ",OUTPUT=3D"])
 def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
     """In its plane, or as the layer of wedges that it solves on; the last of two steps."""
@@ -254,7 +252,10 @@ ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
         ("a.what", "?", "does not support"),
     ],
 )
-def test_what_cannot_be_read_is_said_in_one_line(tmp_path, capsys, name, content, said):
+def test_what_cannot_be_read_is_said_in_one_line(
+    tmp_path, capsys, monkeypatch, name, content, said
+):
+    monkeypatch.undo()
     path = tmp_path / name
     path.write_text(content)
     before = path.read_bytes()
@@ -265,7 +266,6 @@ def test_what_cannot_be_read_is_said_in_one_line(tmp_path, capsys, name, content
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.usefixtures("in_this_process")
 def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
     block = pyvista.ImageData(dimensions=(6, 6, 6), spacing=(1e-4,) * 3).cast_to_unstructured_grid()
     block["S"] = np.zeros((block.n_points, 6))
@@ -274,10 +274,8 @@ def test_a_body_that_is_not_in_a_plane(hertz, tmp_path):
         read({"file": str(tmp_path / "a.vtu"), "up": "y"})
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
-    mesh = block(hertz)
-    points, stress = upright(mesh), tensor(exact(mesh, hertz))
+def test_missing_stresses_steps_and_frictions(mesh, stress, hertz, tmp_path):
+    points = upright(mesh)
     section = vtu(tmp_path / "a.vtu", points, mesh.triangles, stress, "U")
     with pytest.raises(InputError, match="holds no stresses in its plane, of U"):
         read(section)
@@ -289,12 +287,10 @@ def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
     holds(read(moved | {"z_origin": -1e-3}), hertz, near=2e-3)
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_components_in_an_exodus_file(hertz, tmp_path):
+def test_components_in_an_exodus_file(mesh, hertz, tmp_path):
     """In MOOSE's order, of which VTK takes the first two for a vector."""
     from vtkmodules.vtkIOExodus import vtkExodusIIWriter
 
-    mesh = block(hertz)
     grid, stress = grid_of(upright(mesh), mesh.triangles), exact(mesh, hertz)
     named = {"stress_xx": stress.sx, "stress_xy": -stress.txz, "stress_yy": stress.sz}
     for name, values in named.items():
@@ -306,10 +302,7 @@ def test_components_in_an_exodus_file(hertz, tmp_path):
     holds(read({"file": str(tmp_path / "a.e")}), hertz, near=2e-3)
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_steps_of_xdmf(hertz, tmp_path):
-    mesh = block(hertz)
-    stress = tensor(exact(mesh, hertz))
+def test_steps_of_xdmf(mesh, stress, hertz, tmp_path):
     with meshio.xdmf.TimeSeriesWriter(tmp_path / "a.xdmf", data_format="XML") as writer:
         writer.write_points_cells(upright(mesh), [("triangle6", mesh.triangles)])
         for time in (0.5, 1.0):
@@ -321,12 +314,11 @@ def test_steps_of_xdmf(hertz, tmp_path):
         read({"file": str(tmp_path / "a.xdmf"), "step": 2})
 
 
-def test_med_is_read_beside_another_hdf5(hertz, tmp_path):
+def test_med_is_read_beside_another_hdf5(mesh, stress, hertz, tmp_path, monkeypatch):
     """Written in another process, too: dolfinx has loaded its own HDF5 into this one."""
+    monkeypatch.undo()
     if find_spec("h5py") is None:
         pytest.skip("no h5py: pip install h5py")
-    mesh = block(hertz)
-    stress = tensor(exact(mesh, hertz))
     vtu(tmp_path / "a.vtu", upright(mesh), mesh.triangles, stress, "SIEF_NOEU")
     convert = "import pyvista; pyvista.save_meshio('a.med', pyvista.read('a.vtu'))"
     subprocess.run([sys.executable, "-c", convert], cwd=tmp_path, check=True)
