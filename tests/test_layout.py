@@ -12,6 +12,7 @@ import ast
 import fnmatch
 import importlib.metadata
 import os
+import pkgutil
 import re
 import shutil
 import subprocess
@@ -52,11 +53,6 @@ MODULES = sorted(path for package in MAY_IMPORT for path in (PROJECT / package).
 def dotted_name(path: Path) -> str:
     parts = path.relative_to(PROJECT).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
-
-
-def is_type_checking(node: ast.AST) -> bool:
-    """An `if TYPE_CHECKING:` block, which never runs."""
-    return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
 
 
 def imported(tree: ast.AST, package: str):
@@ -159,29 +155,14 @@ def test_a_folder_is_read_at_a_glance(folder):
     assert [head for head in set(heads) if heads.count(head) > 2] == []
 
 
-def defined(path: Path) -> set[str]:
-    """Names at the top of a module."""
-    names = set()
-    for node in ast.parse(path.read_text()).body:
-        if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            names.add(node.name)
-        elif isinstance(node, ast.ImportFrom | ast.Import):
-            names |= {alias.asname or alias.name for alias in node.names}
-        else:
-            names |= {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
-    return names
-
-
 def resolves(name: str) -> bool:
-    """Whether a dotted name is a folder, a module, or what stands at the top of one."""
-    if (PROJECT / name.replace(".", "/")).is_dir() or name in BY_NAME:
+    """Whether a dotted name is a folder, a module, or what stands in one."""
+    if (PROJECT / name.replace(".", "/")).is_dir():
         return True
-    parts = name.split(".")
-    for n in range(len(parts) - 1, 0, -1):
-        path = BY_NAME.get(".".join(parts[:n]))
-        if path is not None:
-            return parts[n] in defined(path)
-    return False
+    try:
+        return pkgutil.resolve_name(name) is not None
+    except (ImportError, AttributeError):
+        return False
 
 
 def test_names_of_modules_in_words_resolve():

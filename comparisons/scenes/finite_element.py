@@ -65,24 +65,19 @@ class FiniteElementSection(SceneSection):
         return self.model_copy(update=update)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        for field, problem in self._conflicts(scene):
-            yield f"finite_element.{field}", problem
-
-    def _conflicts(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        """Fields of this section that do not fit the rest of the scene, and what is wrong."""
+        coupled, flow = "finite_element.coupled", "finite_element.plastic"
         apart = max(scene.load.friction) > 0.0 and self.coupled is False
         if self.roller_body == "disc" and scene.roller.rigid:
-            yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
+            problem = 'is "disc", but the roller is rigid; allowed with an elastic one'
+            yield "finite_element.roller_body", problem
         if self.deformation == "finite" and scene.linear:
-            yield (
-                "deformation",
-                'is "finite" with law = "linear"; allowed is another law, or "linear"',
-            )
+            problem = 'is "finite" with law = "linear"; allowed is another law, or "linear"'
+            yield "finite_element.deformation", problem
         if self.plastic and scene.body.yield_stress is None:
-            yield "plastic", "is true, but the body has no yield stress; allowed with one"
+            yield flow, "is true, but the body has no yield stress; allowed with one"
         if self.deformation == "finite" and apart:
-            yield "coupled", "is false at finite deformation with friction; allowed is true"
+            yield coupled, "is false at finite deformation with friction; allowed is true"
         if self.plastic and scene.load.kind == "approach":
-            yield "plastic", "is true with load.approach; allowed with per_length"
+            yield flow, "is true with load.approach; allowed with per_length"
         if self.plastic and apart:
-            yield "coupled", "is false for a body that yields under friction; allowed is true"
+            yield coupled, "is false for a body that yields under friction; allowed is true"

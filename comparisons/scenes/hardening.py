@@ -1,10 +1,8 @@
 """The hardening of a body that flows, as a scene has it: `body.hardening`."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from analytic.material.hardening import Hardening
 from comparisons.common.units import DIMENSIONLESS, PRESSURE, describe
 from comparisons.scenes.fields import MOST_VALUES, FieldType, Number
 
@@ -56,18 +54,3 @@ class HardeningField(FieldType):
             "voce = {saturated = …, rate = …} and ludwik = {strength = …, exponent = …}, "
             'and kinematic = "1 GPa" by itself or beside it'
         )
-
-
-def hardening_of(
-    yield_stress: float, modulus: float | None, law: Mapping[str, object] | None
-) -> Hardening:
-    """Of a body's fields; raises ValueError, in one line, where they are no law."""
-    law = law or {}
-    named = {name: tuple(law[name].values()) for name in HardeningField.LAWS if name in law}
-    return Hardening(
-        yield_stress,
-        modulus or 0.0,
-        table=law.get("table"),
-        kinematic=law.get("kinematic", 0.0),
-        **named,
-    )

@@ -325,32 +325,16 @@ def _constants(measured: Mapping[str, float]) -> dict[str, float]:
     [kg/m^3] and both speeds of sound [m/s]."""
     if measured.keys() <= ELASTIC.keys():
         return dict(measured)
-    return {
-        frozenset(("lame", "shear")): _of_lame,
-        frozenset(("bulk", "shear")): _of_bulk,
-        frozenset(("shear", "poissons_ratio")): _of_shear,
-        frozenset(("density", "longitudinal", "transverse")): _of_speeds,
-    }[frozenset(measured)](**measured)
-
-
-def _of_lame(lame: float, shear: float) -> dict[str, float]:
-    return _of_shear(shear, 0.5 * lame / (lame + shear))
-
-
-def _of_bulk(bulk: float, shear: float) -> dict[str, float]:
-    return _of_lame(bulk - 2.0 * shear / 3.0, shear)
-
-
-def _of_shear(shear: float, poissons_ratio: float) -> dict[str, float]:
-    return {
-        "youngs_modulus": 2.0 * shear * (1.0 + poissons_ratio),
-        "poissons_ratio": poissons_ratio,
-    }
-
-
-def _of_speeds(density: float, longitudinal: float, transverse: float) -> dict[str, float]:
-    shear = density * transverse**2
-    return _of_lame(density * longitudinal**2 - 2.0 * shear, shear)
+    known = dict(measured)
+    if "density" in known:
+        known["shear"] = known["density"] * known["transverse"] ** 2
+        known["lame"] = known["density"] * known["longitudinal"] ** 2 - 2.0 * known["shear"]
+    if "bulk" in known:
+        known["lame"] = known["bulk"] - 2.0 * known["shear"] / 3.0
+    shear, ratio = known["shear"], known.get("poissons_ratio")
+    if ratio is None:
+        ratio = 0.5 * known["lame"] / (known["lame"] + shear)
+    return {"youngs_modulus": 2.0 * shear * (1.0 + ratio), "poissons_ratio": ratio}
 
 
 def _law(entry: Mapping, values: Mapping[str, Value]) -> tuple[Law | None, tuple[str, ...]]:

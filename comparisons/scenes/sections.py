@@ -38,7 +38,7 @@ from comparisons.scenes.fields import (
     Whole,
     allowed,
 )
-from comparisons.scenes.hardening import HardeningField, hardening_of
+from comparisons.scenes.hardening import HardeningField
 from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named, solids
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
@@ -239,8 +239,12 @@ class BodySection(ElasticSection):
                 yield "hardening", f"is no law: {error}; allowed is {right}"
 
     def flow_stress(self) -> Hardening:
-        """Of a body with a yield stress."""
-        return hardening_of(self.yield_stress, self.hardening_modulus, self.hardening)
+        """Of a body with a yield stress; raises ValueError, in one line, where it is no law."""
+        law = self.hardening or {}
+        named = {name: tuple(law[name].values()) for name in HardeningField.LAWS if name in law}
+        modulus, table = self.hardening_modulus or 0.0, law.get("table")
+        kinematic = law.get("kinematic", 0.0)
+        return Hardening(self.yield_stress, modulus, table=table, kinematic=kinematic, **named)
 
     def completed(self, scene: SceneSection) -> Self:
         is_layer = self.thickness is not None
