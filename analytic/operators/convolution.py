@@ -27,7 +27,7 @@ def made_once(method: Callable) -> Callable:
     name = f"_{method.__name__}"
 
     @wraps(method)
-    def cached(self):
+    def cached(self: object) -> object:
         if name not in self.__dict__:
             self.__dict__[name] = method(self)
         return self.__dict__[name]

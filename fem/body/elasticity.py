@@ -242,7 +242,7 @@ def elastic_body(
     return ElasticBody(*form_of_body, support, held, node, assemble, space, ties)
 
 
-def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
+def _work(space: "FunctionSpace", shear: object, lame: object, quadrature: int) -> "ufl.Form":
     """Work of the stresses of one displacement on the strains of another."""
     import ufl
 

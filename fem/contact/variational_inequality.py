@@ -81,7 +81,7 @@ def solve_variational_inequality(
     # Contact everywhere: without any the approach would be undetermined.
     x.array[pressures] = 1.0
 
-    def residual(snes, at, result) -> None:
+    def residual(snes: object, at: object, result: object) -> None:
         matrix.mult(at, result)
         result.array += constant
 
@@ -108,7 +108,9 @@ def solve_variational_inequality(
     return VariationalSolution(pressure, approach, snes.getIterationNumber())
 
 
-def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: float) -> csr_matrix:
+def _scaled_system(
+    bodies: Sequence, softness: np.ndarray, weights: np.ndarray, pitch: float
+) -> csr_matrix:
     """Matrix of the whole system in (u_1, ..., p, d), all of them of order one. `softness`
     (bodies,) is each body's part of the compliance, in which its displacement is scaled. B'(K u - B
     p), zero at the solution, is subtracted from the gap: where a Newton step set a negative

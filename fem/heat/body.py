@@ -95,7 +95,7 @@ def thermal_body(
     curvature = of_cells(1.0 / radius, 1.0 / radius)
     quadrature = 2 * degree + (2 if curved else 0)
 
-    def matrix(kind: str, points: int, *values) -> csr_matrix:
+    def matrix(kind: str, points: int, *values: object) -> csr_matrix:
         make = partial(_form, kind, space, points, *values)
         name = (kind, degree, curved, points)
         form = compiled(lambda: compat.compile_bilinear(name, make, space, list(values)))
@@ -116,7 +116,9 @@ def thermal_body(
     )
 
 
-def _form(kind: str, space: "FunctionSpace", points: int, factor, curvature=None) -> "ufl.Form":
+def _form(
+    kind: str, space: "FunctionSpace", points: int, factor: object, curvature: object = None
+) -> "ufl.Form":
     """Of one of the body's matrices; `points` is the degree that the quadrature is exact for."""
     import ufl
 

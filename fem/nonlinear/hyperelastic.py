@@ -91,7 +91,7 @@ class HyperelasticBody:
         if np.any(x_r * z_s - x_s * z_r <= 0.0):
             raise FemError("an element is inverted")
 
-    def _in_our_order(self, matrix) -> csr_matrix:
+    def _in_our_order(self, matrix: object) -> csr_matrix:
         """The matrix (2n, 2n) in the order of the body's own nodes."""
         start, column, value = matrix.getValuesCSR()
         matrix.destroy()

@@ -97,6 +97,6 @@ def _times(scalar: np.ndarray, tensor: np.ndarray) -> np.ndarray:
     return np.asarray(scalar)[..., None, None] * tensor
 
 
-def _sum(coefficients: tuple[float, ...], y):
+def _sum(coefficients: tuple[float, ...], y: object):
     """The polynomial in y."""
     return reduce(lambda total, coefficient: coefficient + y * total, reversed(coefficients))

@@ -57,7 +57,7 @@ class SymmetricFactor:
 
     Raises FemError if MUMPS cannot factor it."""
 
-    def __init__(self, matrix) -> None:
+    def __init__(self, matrix: object) -> None:
         from petsc4py import PETSc
 
         matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)

@@ -51,7 +51,7 @@ class Exact:
     coat: Material | None = None
     thickness: float = 0.0
 
-    def _parts(self, x, z):
+    def _parts(self, x: object, z: object):
         """mu, lambda, the derivatives of a and b, sine and cosine."""
         (a, b), (a_z, b_z), second = profiles(z)
         bulk, shear = self.material.lame_constants
