@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 SCHEMA = 2
-CASE, CONDITION, COST = "case", "condition", "cost"  # studies of what cases yield
+# Studies of what cases yield: bounded figures, the condition number of a matrix, iterations.
+CASE, CONDITION, COST = "case", "condition", "cost"
 # Quantity of a cost: iterations over those of the ordinary case.
 TIMES_THE_ORDINARY = "times_the_ordinary"
 MODEL_LABELS = LABELS | {"layer": "analytic layer", "both": "both"}
@@ -69,11 +70,6 @@ def relative_error(
 ) -> Figure:
     """|value / expected - 1|."""
     return bounded(quantity, abs(value / expected - 1.0), high, against)
-
-
-def account(study: str, quantity: str, value: float) -> Figure:
-    """CONDITION, the estimated condition number of a case's matrix; or COST, its iterations."""
-    return Figure(study, quantity, "computed", float(value))
 
 
 def holds(figure: Figure) -> bool:

@@ -17,11 +17,7 @@ from analytic.contact.patches import contact_patches
 from analytic.material import Material
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.bodies import UNBOUNDED_SIDES
-from comparisons.models.finite_element.mesh import (
-    Refinement,
-    block_spec,
-    rough_mesh,
-)
+from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
 from comparisons.models.finite_element.roller import (
     disc_support,
     is_disc,

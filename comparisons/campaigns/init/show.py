@@ -17,7 +17,7 @@ from comparisons.output.page.tables.problem import STANDARD, roughness_notes, ro
 from comparisons.output.plausibility import warnings_about_surface
 from comparisons.output.terminal import PLAIN, plain_table, plain_text
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import ProfileInfo, SceneSurface
+from comparisons.scenes.surface import SceneSurface
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +65,11 @@ def init_table(made: FirstScene) -> "RenderableType":
 
     info = made.surface.info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
-    read += f"{_length(info.length)} long, {_apart(info)} apart"
+    steps = np.diff(info.trace.x)
+    least, most = float(steps.min()), float(steps.max())
+    even = most - least <= UNEVEN * info.spacing
+    apart = _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
+    read += f"{_length(info.length)} long, {apart} apart"
     numbers = "as pressed", STANDARD
     table = plain_table("roughness", numbers=numbers, rows=roughness_rows(info))
     guesses = (
@@ -96,14 +100,6 @@ def first_lines(scene: Scene) -> tuple[str, str]:
 
     problem = problem_of(scene)
     return early_lines(problem, half_plane_level(problem, problem.pitches[0], None, Stages()))
-
-
-def _apart(info: ProfileInfo) -> str:
-    """The distance of samples, or from which to which it goes."""
-    steps = np.diff(info.trace.x)
-    least, most = float(steps.min()), float(steps.max())
-    even = most - least <= UNEVEN * info.spacing
-    return _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
 
 
 def _length(value: float) -> str:

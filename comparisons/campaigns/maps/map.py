@@ -159,7 +159,15 @@ def finished_map(name: str) -> dict:
 def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> dict:
     """Write a map that comes with the project to `out`, and return its content; nothing is solved.
     Raises InputError for a quantity that it does not have, and what cannot be written."""
-    content = showing(finished_map(name), quantity)
+    content = finished_map(name)
+    solved = [point for point in content["points"] if point["status"] == SOLVED]
+    allowed = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
+    if quantity not in allowed:
+        raise InputError(
+            f"--quantity: {quantity} is not on this map; allowed are {', '.join(allowed)}"
+        )
+    points = [point | significance(point, quantity) for point in content["points"]]
+    content |= {"quantity": quantity, "points": points}
     publish(out, _files(content, marked and mark_of(content, marked)), FILES)
     return content
 
@@ -190,19 +198,6 @@ def map_content(request: MapRequest, answers: list[dict]) -> dict:
         "points": points,
         "versions": versions(),
     }
-
-
-def showing(content: dict, quantity: str) -> dict:
-    """The same map of another quantity that its points have; refined for the first one. Raises
-    InputError where they do not have it."""
-    solved = [point for point in content["points"] if point["status"] == SOLVED]
-    allowed = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
-    if quantity not in allowed:
-        raise InputError(
-            f"--quantity: {quantity} is not on this map; allowed are {', '.join(allowed)}"
-        )
-    points = [point | significance(point, quantity) for point in content["points"]]
-    return content | {"quantity": quantity, "points": points}
 
 
 def map_table(content: dict, out: Path | None) -> "Text":

@@ -19,7 +19,6 @@ from comparisons.campaigns.cases import (
     COST,
     TIMES_THE_ORDINARY,
     CaseFigures,
-    account,
     bounded,
     relative_error,
 )
@@ -76,7 +75,9 @@ class LoadedContact:
         touching = np.flatnonzero(self.pressure > 0.0)
         if len(touching) <= MOST_NODES:
             condition = np.linalg.cond(self.operator.block(touching))
-            accounts += (account(CONDITION, "of the nodes in contact", condition),)
+            accounts += (
+                Figure(CONDITION, "of the nodes in contact", "computed", float(condition)),
+            )
         return *figures, *residual_figures(self.solution), *limits, *accounts
 
 
@@ -114,7 +115,7 @@ def residual_figures(solution: ContactSolution) -> CaseFigures:
 
 def costs(solution: ContactSolution, times_the_ordinary: float) -> CaseFigures:
     counts = solution.iterations | {TIMES_THE_ORDINARY: times_the_ordinary}
-    return tuple(account(COST, name, number) for name, number in counts.items())
+    return tuple(Figure(COST, name, "computed", float(number)) for name, number in counts.items())
 
 
 @cache

@@ -21,7 +21,7 @@ from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import LEVEL_CODE, as_json, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
-from comparisons.figures.figure import Findings, grouped
+from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
@@ -189,20 +189,13 @@ def solved(point: Point) -> dict:
     warnings = *warnings_about(point.scene, surface), *warnings_about_result(outcome)
     answer = {"status": SOLVED, "verdict": result.verdict, "within": result.within}
     answer |= {"warnings": warnings, "rows": tuple(rows_of(result, point.scene.name))}
-    if zones := _zones(outcome.findings.get(quiescent_zone.NAME)):
-        answer[quiescent_zone.NAME] = zones
-    return answer
-
-
-def _zones(findings: Findings | None) -> dict[str, list[dict]]:
-    """By model, then by friction coefficient; their figures are among the rows."""
-    by_model: dict[str, list[dict]] = {}
-    for zone in quiescent_zone.zones_of(findings):
+    zones: dict[str, list[dict]] = {}  # by model, then by friction
+    for zone in quiescent_zone.zones_of(outcome.findings.get(quiescent_zone.NAME)):
         entry = {"friction": zone.friction, "status": zone.state}
         entry |= {"level": zone.figures["level"].value}
         entry |= {"bridged": zone.bridged, "asperities": zone.asperities}
-        by_model.setdefault(zone.model, []).append(entry)
-    return by_model
+        zones.setdefault(zone.model, []).append(entry)
+    return answer | ({quiescent_zone.NAME: zones} if zones else {})
 
 
 def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:

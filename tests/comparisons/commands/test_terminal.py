@@ -5,6 +5,7 @@ import pty
 import re
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -43,14 +44,9 @@ def in_terminal(folder: Path, **more: str) -> str:
         command, cwd=folder, env=environment(**more), stdout=theirs, stderr=theirs
     ) as process:
         os.close(theirs)
-        while True:
-            try:
-                piece = os.read(ours, 65536)
-            except OSError:  # the last writer has gone
-                break
-            if not piece:
-                break
-            said += piece
+        with suppress(OSError):  # the last writer has gone
+            while piece := os.read(ours, 65536):
+                said += piece
     os.close(ours)
     assert process.returncode == 0, said
     return said.decode()
@@ -105,17 +101,13 @@ def answer(line: str) -> list[str]:
 
 
 def test_scenes_are_completed(tmp_path, monkeypatch):
-    assert answer("crosscheck run ") == [*scene_names(), *_folders_of_the_checkout()]
+    shown = [p for p in sorted(PROJECT.glob("[!.]*")) if p.is_dir() or p.suffix == ".toml"]
+    beside = [f"{path.name}{'/' * path.is_dir()}" for path in shown]
+    assert answer("crosscheck run ") == [*scene_names(), *beside]
     assert arguments.complete_scenes("smooth") == ["smooth", "smooth-sliding"]
     (tmp_path / "mine.toml").touch()
     (tmp_path / "mine.csv").touch()
     assert answer(f"crosscheck run {tmp_path}/m") == [f"{tmp_path}/mine.toml"]
-
-
-def _folders_of_the_checkout() -> list[str]:
-    shown = [path for path in sorted(PROJECT.glob("*")) if not path.name.startswith(".")]
-    return [f"{p.name}/" if p.is_dir() else p.name for p in shown
-            if p.is_dir() or p.suffix == ".toml"]  # fmt: skip
 
 
 def test_commands_groups_and_models_are_completed():

@@ -1,6 +1,5 @@
 """Maps that are killed, interrupted, cut short, and solved by others: the same file in the end."""
 
-import io
 import os
 import signal
 import sys
@@ -9,7 +8,6 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from rich.console import Console
 
 from comparisons.campaigns.grid import exit_status, failed
 from comparisons.campaigns.maps.map import MAP, PICTURE, make_map, map_table, request_of
@@ -21,23 +19,11 @@ from comparisons.common.tasks import Tasks, called
 
 SCENE = """
 title = "Small"
-
-[roller]
-radius = "10 mm"
-rigid = true
-
-[body]
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-
-[load]
-hertz_peak_pressure = "1 GPa"
-
-[finite_element]
-growth = 0.5
-
-[resolution]
-pitch = "20 um"
+roller = {radius = "10 mm", rigid = true}
+body = {youngs_modulus = "200 GPa", poissons_ratio = 0.3}
+load = {hertz_peak_pressure = "1 GPa"}
+finite_element = {growth = 0.5}
+resolution = {pitch = "20 um"}
 """
 ASKED = ("--points", "2x2", "--x", "a_over_thickness=1:2", "--y", "poissons_ratio=0.2:0.3")
 FOLDER = "map_points"
@@ -76,42 +62,35 @@ def saved(out: Path) -> dict[str, int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc to look in")
-class TestStopped:
-    def test_killed_and_interrupted_it_ends_with_the_same_map(
-        self, scene, undisturbed, started, session, until, tmp_path
-    ):
-        """No worker outlives its map, and no finished point is computed again."""
-        out, before = tmp_path / "out", {}
-        for enough, stop, status in ((1, self.kill, -9), (2, self.interrupt, 130)):
-            with started(*COMMAND, scene, *ASKED, "--workers", "1", "--out", out) as process:
-                assert until(lambda enough=enough: len(saved(out)) >= enough)
-                stop(process.pid)
-                assert process.wait(20.0) == status
-                assert until(lambda leader=process.pid: not session(leader), 20.0)
-                said = process.stderr.read()
-            assert not (out / MAP).exists()
-            assert before.items() <= saved(out).items()
-            before = saved(out)
-        assert said == (
-            "crosscheck: interrupted; finished points are kept, the same command goes on from "
-            "there\n"
-        )
-        key = request_of(str(scene), *ASKED[1::2]).points[-1].key
-        left = out / FOLDER / f".{key}.npz.7.part"  # by a process that was killed long ago
-        left.write_text("{")
-        os.utime(left, (0.0, 0.0))
-        assert main(["map", str(scene), *ASKED, "--workers", "1", "--out", str(out)]) == 0
-        assert before.items() <= saved(out).items() and len(saved(out)) == 4
-        assert (out / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
-        assert (out / PICTURE).read_bytes() == (undisturbed / PICTURE).read_bytes()
-        assert sorted(p.name for p in out.iterdir()) == [MAP, PICTURE, FOLDER]
-        assert not list((out / FOLDER).glob(".*"))
-
-    def kill(self, process: int) -> None:
-        os.kill(process, signal.SIGKILL)
-
-    def interrupt(self, process: int) -> None:
-        os.killpg(process, signal.SIGINT)  # as a terminal does
+def test_killed_and_interrupted_it_ends_with_the_same_map(
+    scene, undisturbed, started, session, until, tmp_path
+):
+    """No worker outlives its map, and no finished point is computed again."""
+    out, before = tmp_path / "out", {}
+    stops = (1, os.kill, signal.SIGKILL, -9), (2, os.killpg, signal.SIGINT, 130)  # a terminal's
+    for enough, stop, how, status in stops:
+        with started(*COMMAND, scene, *ASKED, "--workers", "1", "--out", out) as process:
+            assert until(lambda enough=enough: len(saved(out)) >= enough)
+            stop(process.pid, how)
+            assert process.wait(20.0) == status
+            assert until(lambda leader=process.pid: not session(leader), 20.0)
+            said = process.stderr.read()
+        assert not (out / MAP).exists()
+        assert before.items() <= saved(out).items()
+        before = saved(out)
+    assert said == (
+        "crosscheck: interrupted; finished points are kept, the same command goes on from there\n"
+    )
+    key = request_of(str(scene), *ASKED[1::2]).points[-1].key
+    left = out / FOLDER / f".{key}.npz.7.part"  # by a process that was killed long ago
+    left.write_text("{")
+    os.utime(left, (0.0, 0.0))
+    assert main(["map", str(scene), *ASKED, "--workers", "1", "--out", str(out)]) == 0
+    assert before.items() <= saved(out).items() and len(saved(out)) == 4
+    assert (out / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
+    assert (out / PICTURE).read_bytes() == (undisturbed / PICTURE).read_bytes()
+    assert sorted(p.name for p in out.iterdir()) == [MAP, PICTURE, FOLDER]
+    assert not list((out / FOLDER).glob(".*"))
 
 
 def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
@@ -146,7 +125,7 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     assert exit_status(content["points"]) == ExitStatus.DONE
     content["points"][0]["wrong"] = False
     assert exit_status(content["points"]) == ExitStatus.NOT_CONVERGED
-    assert "failed, 2: " in printed(map_table(content, tmp_path))
+    assert "failed, 2: " in map_table(content, tmp_path).plain
 
 
 def test_a_map_with_a_value_that_no_scene_has_solves_and_writes_nothing(scene, tmp_path, capsys):
@@ -164,12 +143,6 @@ def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys
     monkeypatch.setattr("comparisons.campaigns.maps.map.make_map", asked)
     assert main(["map", str(scene), *ASKED]) == ExitStatus.BAD_INPUT
     assert capsys.readouterr().err == "crosscheck: results/small\n"
-
-
-def printed(renderable: object) -> str:
-    console = Console(width=200, record=True, file=io.StringIO())
-    console.print(renderable)
-    return console.export_text()
 
 
 @pytest.mark.parametrize(

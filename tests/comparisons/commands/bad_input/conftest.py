@@ -37,10 +37,8 @@ def trace() -> str:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch) -> Path:
-    def run(*arguments):
-        pytest.fail("a wrong scene was solved")
-
-    monkeypatch.setattr("comparisons.runs.run.solve_scene", run)
+    solve_scene = "comparisons.runs.run.solve_scene"
+    monkeypatch.setattr(solve_scene, lambda *_: pytest.fail("a wrong scene was solved"))
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -70,7 +70,6 @@ def test_as_a_process(tmp_path, toml):
         env={**os.environ, "PYTHONPATH": str(PROJECT)},
         capture_output=True,
         text=True,
-        check=False,
     )
     assert done.returncode == 2
     assert done.stdout == ""

@@ -76,7 +76,6 @@ def test_a_closed_stream_is_no_defect(closed, words):
         env={**os.environ, "PYTHONPATH": str(PROJECT)},
         capture_output=True,
         text=True,
-        check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert words in done.stdout
@@ -89,7 +88,6 @@ def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path, trace)
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(PROJECT), "PYTHONIOENCODING": "ascii"},
         capture_output=True,
-        check=False,
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert rb'by "x [\xb5m],z [\xb5m]" in the file' in done.stdout
