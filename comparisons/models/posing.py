@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from analytic.contact.patches import contact_patches
-from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid
 from analytic.material import combined_modulus
@@ -74,10 +74,14 @@ def _under_roller(
         hertz = hertz_from_load(load, radius, modulus)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
-    plastic = scene.finite_element.plastic
-    problem = Problem(scene, surface, modulus, hertz, extent, pitches=())
-    problem = replace(problem, flows=plastic or _may_flow(scene, hertz))
-    plain = scene.profile is None and scene.body.width is None and scene.body.hardness is None
+    plastic, body = scene.finite_element.plastic, scene.body
+    # flow that is found beside the half-plane may spread the contact, too
+    asked = body.yield_stress is not None and scene.budget.effects and scene.tolerances
+    flows = plastic or bool(
+        asked and (scene.profile is not None or hertz.peak_pressure > least_of_flow(scene))
+    )
+    problem = Problem(scene, surface, modulus, hertz, extent, pitches=(), flows=flows)
+    plain = scene.profile is None and body.width is None and body.hardness is None
     plain = plain and scene.coating is None and not problem.flows
     if not plain or problem.coupling:
         try:
@@ -102,13 +106,6 @@ def _on_one_period(scene: Scene, surface: SceneSurface, modulus: float) -> Probl
         )
     smooth = FlatContact(half, mean, modulus)
     return Problem(scene, surface, modulus, smooth, (-half, half), pitches=())
-
-
-def _may_flow(scene: Scene, hertz: HertzContact) -> bool:
-    """Whether flow, where it is found beside the half-plane, may spread the contact."""
-    asked = scene.body.yield_stress is not None and scene.budget.effects and scene.tolerances
-    rough = scene.profile is not None
-    return bool(asked) and (rough or hertz.peak_pressure > least_of_flow(scene))
 
 
 def _check_layers(scene: Scene, half_width: float) -> None:

@@ -16,7 +16,6 @@ from meshes.real_shape import roughen
 from meshes.refined_ranges import refined_ranges
 from meshes.size_law import estimate_unknowns
 
-EDGES_PER_HAT = 1  # element edges under each pressure element
 MARGIN_HATS = 3.0  # refined range beyond the predicted contact
 FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
 COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
@@ -42,7 +41,7 @@ class Refinement:
 def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:
     """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
     scene, half_width = problem.scene, problem.hertz.half_width
-    edge = refinement.pitch / EDGES_PER_HAT
+    edge = refinement.pitch  # one under each pressure element
     coarser = problem.coarser(refinement.pitch)
     width, depth = problem.unbounded
     across = 0.5 * width

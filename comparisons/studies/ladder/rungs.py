@@ -216,8 +216,7 @@ class Ladder:
                 solutions.of_whole(row.quantity, stated[row.quantity].total)
                 for row in self._rows(friction)
             ]
-        effects = self.budget.selection.whole
-        inside = words_of_kind(effects)
+        inside = words_of_kind(self.budget.selection.whole)
         rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors))
         seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
         return replace(rung, seconds=rung.seconds + seconds, memory=max(rung.memory, memory))

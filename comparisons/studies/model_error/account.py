@@ -28,8 +28,7 @@ def figure_of(
     error: ModelError, selection: EffectSelection, tolerance: Mapping[str, float]
 ) -> Figure:
     """A model error, relative to the whole model."""
-    parts = [Part(n, e.value, e.uncertainty, e.moves_maximum) for n, e in error.effects.items()]
-    parts += [Part(INTERACTION, error.interaction), Part(JUMP, error.jump)]
+    parts = [*error.effects.values(), Part(INTERACTION, error.interaction), Part(JUMP, error.jump)]
     unknown, sure = selection.not_modelled(error.quantity), {"numerical": error.uncertainty}
     if error.law.half:
         parts.append(Part(LAW, error.law.middle, error.law.half))

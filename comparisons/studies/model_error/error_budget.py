@@ -279,7 +279,9 @@ def selected_effects(
         left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
         return selection.without(left_out, "not asked for (budget.effects)")
     flows = flow.beyond_doubt and FLOW not in selection.added | selection.found
-    if asked != "all" and (flows or selection.flow_is_unbounded):
+    # it flows, too, where nothing says how far
+    flows = flows or any(map(math.isinf, selection.estimates.get(FLOW, {}).values()))
+    if asked != "all" and flows:
         why = f"the body flows, an elastic one cannot hold ({ASKED})"
         return selection.without(selection.added, why)
     return selection

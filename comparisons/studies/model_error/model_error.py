@@ -8,13 +8,13 @@ in the end: an effect is what changes at that asperity. Where the half-plane has
 value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, Part
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import (
     difference_of_figures,
@@ -38,22 +38,12 @@ NEAR = 0.5  # of the largest value: asperities below it do not compete
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A relative size with its uncertainty, absolute in the same measure."""
-
-    value: float
-    uncertainty: float
-    # whether the effect by itself moves the largest value to another asperity
-    moves_maximum: bool = False
-
-
-@dataclass(frozen=True)
 class ModelError:
     """Of one quantity at one friction coefficient, relative to the whole."""
 
     quantity: str
     friction: float
-    effects: dict[str, Estimate]  # by name, what each changes in the finite elements
+    effects: dict[str, Part]  # by name, what each changes in the finite elements
     interaction: float  # what they change jointly beyond their sum
     value: float  # (half-plane - whole) / whole
     uncertainty: float  # of `value`
@@ -164,7 +154,7 @@ class Solutions:
         interaction = 0.0
         if self.split_levels:
             joint = [level.interaction(self.effects) for level in self.split_levels]
-            interaction = self._estimate(name, joint, at).value
+            interaction, _ = self._estimate(name, joint, at)
         value, uncertainty, scale = self._of_figure(name, row.numerical, at)
         jump, moved = self._jump(name, row.numerical, at)
         return ModelError(
@@ -206,20 +196,25 @@ class Solutions:
         finest = [run.finest for run in self.runs.values()]
         return formal_order(name, finest, self.problem, self.friction)
 
-    def _estimate(self, name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
-        """The relative size of changes, one a level, of a quantity at an asperity."""
+    def _estimate(
+        self, name: str, changes: list[QuantitiesOfInterest], at: int
+    ) -> tuple[float, float]:
+        """The relative size, with its uncertainty, of changes, one a level, at an asperity."""
         # by one scale: a place may jump to the surface on one level alone
         scale = self._scale_of(name, at)
         values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
-            return Estimate(0.0, 0.0)
+            return 0.0, 0.0
         resolution = self.resolutions.get(name, 0.0)
         refined = grid_convergence(values, self._order(name), resolution)
-        return Estimate(values[-1], refined.uncertainty + self.unsolved)
+        return values[-1], refined.uncertainty + self.unsolved
 
-    def _effect(self, name: str, effect: str, at: int, numerical: float) -> Estimate:
+    def _effect(self, name: str, effect: str, at: int, numerical: float) -> Part:
         changes = [level.effect(effect) for level in self.split_levels]
-        size, pair = self._estimate(name, changes, at), self.split_levels[-1].pairs[effect]
+        (size, unsure), pair = (
+            self._estimate(name, changes, at),
+            self.split_levels[-1].pairs[effect],
+        )
         if effect in OF_SIZE:
             # of the far boundary of the solution without it; unknown where none is nearer
             domain = np.inf
@@ -227,12 +222,12 @@ class Solutions:
                 ends = self.nearer[effect], self.split_levels[0].pairs[effect][1]
                 domain = far_boundary(*(solution.figures[name][at] for solution in ends))
                 domain /= self._scale_of(name, at)
-            size = replace(size, uncertainty=size.uncertainty + domain)
+            unsure += domain
         with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
         if with_it is None:
-            return size
-        certain = with_it.max() / (1.0 + max(size.uncertainty, numerical))  # which may be infinite
-        return replace(size, moves_maximum=bool(certain > with_it[np.argmax(without)]))
+            return Part(effect, size, unsure)
+        certain = with_it.max() / (1.0 + max(unsure, numerical))  # which may be infinite
+        return Part(effect, size, unsure, bool(certain > with_it[np.argmax(without)]))
 
     def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
         """Error of a figure, its uncertainty, and what both are relative to [SI]."""
@@ -256,7 +251,7 @@ class Solutions:
         """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
         that flows beside them stands for itself: by its levels, and by its increments."""
         levels = self.missing if self.longer is None else self.wholes
-        return self._estimate(name, levels, at).uncertainty + self._increments(name, at)
+        return self._estimate(name, levels, at)[1] + self._increments(name, at)
 
     def _increments(self, name: str, at: int) -> float:
         """The part by increments of flow; unknown where longer ones have no solution."""
@@ -278,7 +273,7 @@ class Solutions:
 
         def missing(k: int) -> float:
             """By asperity, how sure is what the whole has beside them."""
-            return self._estimate(largest, beside, k).uncertainty
+            return self._estimate(largest, beside, k)[1]
 
         if not np.isfinite(alone + missing(at)):
             return 0.0  # it is unknown already
@@ -317,11 +312,11 @@ class Solutions:
             for one, whole in zip(levels, self.wholes, strict=False)
         ]
         if not any(apart):
-            return self._plain_error(name, Estimate(0.0, 0.0), at)
+            return self._plain_error(name, at, 0.0, 0.0)
         resolution = self.resolutions.get(name, 0.0)
         unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
         unsure += self._increments(name, at)
-        return self._plain_error(name, Estimate(float(apart[-1]), float(unsure)), at)
+        return self._plain_error(name, at, float(apart[-1]), float(unsure))
 
     def of_exact(self, name: str, exact: QuantitiesOfInterest, numerical: float) -> ModelError:
         """Of a model without numerical error.
@@ -333,22 +328,19 @@ class Solutions:
         numerical *= abs(self.of_scene[-1].largest()[name]) / scale
         unsure = float(difference_of_figures(numerical, value / scale, lacking))
         value = float((value - self._figure(name, at)) / scale)
-        return self._plain_error(name, Estimate(value, unsure), at)
+        return self._plain_error(name, at, value, unsure)
 
     def of_whole(self, name: str, numerical: float) -> ModelError:
         """What is not known of the whole itself."""
         at = self.whole.leading(name)
-        lacking = self._lacking(name, at)
-        return self._plain_error(name, Estimate(0.0, numerical + lacking), at)
+        return self._plain_error(name, at, 0.0, numerical + self._lacking(name, at))
 
     def _scale_of(self, name: str, at: int) -> float:
         return _scale(self._figure(name, at), name, self.problem)
 
-    def _plain_error(self, name: str, size: Estimate, at: int) -> ModelError:
+    def _plain_error(self, name: str, at: int, value: float, unsure: float) -> ModelError:
         scale, law = self._scale_of(name, at), self._law(name, at)
-        return ModelError(
-            name, self.friction, {}, 0.0, size.value, size.uncertainty, scale, law=law
-        )
+        return ModelError(name, self.friction, {}, 0.0, value, unsure, scale, law=law)
 
 
 def _scale(figure: float, name: str, problem: Problem) -> float:

@@ -105,7 +105,11 @@ class EffectRefinement:
             is_open = any(self.solved.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
-        self._take_nearer()
+        # on the coarsest level, what lacks an effect of size with its far boundary nearer
+        for mu, split in self.splits.items():
+            for name, variant in split.held_nearer.items():
+                with suppress(NotComputedError):
+                    self.nearer[mu][name] = self.solved.solution(variant, 1, mu)
         parts = (level for of_friction in self.history.values() for level in of_friction)
         why = next((level.unsplit for level in parts if level.unsplit), None)
         return RefinedEffects(levels, self._errors(), why, left_out, self._solutions())
@@ -158,13 +162,6 @@ class EffectRefinement:
                 self.longer[mu] = [self.solved.solution(v, 1, mu) for v in variants]
             except NotComputedError:
                 self.longer[mu] = []
-
-    def _take_nearer(self) -> None:
-        """On the coarsest level, what lacks an effect of size with its far boundary nearer."""
-        for mu, split in self.splits.items():
-            for name, variant in split.held_nearer.items():
-                with suppress(NotComputedError):
-                    self.nearer[mu][name] = self.solved.solution(variant, 1, mu)
 
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""

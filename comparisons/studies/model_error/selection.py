@@ -5,11 +5,9 @@ count, and might keep from holding what holds at a tighter one."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import isinf
 
 from comparisons.figures.quantity import USUAL
 from comparisons.models.problem import Problem
-from comparisons.scenes.sections import BodySection
 from comparisons.studies.friction.coupling import Coupling
 from comparisons.studies.model_error.catalogue import COUPLED, EFFECTS, contained
 from comparisons.studies.model_error.estimates import Sizes, estimates, flow_of, typical_shears
@@ -51,11 +49,6 @@ class EffectSelection:
     def whole(self) -> frozenset[str]:
         """Effects of the whole model, which the verdict is about."""
         return self.contained | self.added
-
-    @property
-    def flow_is_unbounded(self) -> bool:
-        """Whether the body flows at such stresses, and nothing says how far."""
-        return any(map(isinf, self.estimates.get(FLOW, {}).values()))
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":
         """The same without some of the added effects, for a reason; other laws of elasticity take
@@ -164,15 +157,12 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
         return None
     reasons = {ITS_OWN_LAW if name == LAW else SMALL_STRAINS: flows}
     if name == FLOW:
+        typical, unknown = typical_shears(scene.body), "the body has no yield stress"
+        if typical and not scene.body.hardness:  # nothing stands for its flow
+            unknown += f", {flow_of(scene.body, *typical)}"
         reasons = {
-            _no_yield_stress(scene.body): scene.body.yield_stress is None,
+            unknown: scene.body.yield_stress is None,
             "it takes no prescribed approach": scene.load.kind == "approach",
             'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
         }
     return next((why for why, hindered in reasons.items() if hindered), None)
-
-
-def _no_yield_stress(body: BodySection) -> str:
-    """With what its solid typically bears, where nothing stands for its flow."""
-    typical, said = typical_shears(body), "the body has no yield stress"
-    return said if body.hardness or not typical else f"{said}, {flow_of(body, *typical)}"

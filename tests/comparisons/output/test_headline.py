@@ -8,10 +8,11 @@ from scenes import asked_in_python, judging, posed, refound, unconverged, with_f
 from scenes import judged as figure_of
 
 from comparisons.common.numbers import with_unit
+from comparisons.figures.figure import Part
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.output.headline import headline
 from comparisons.studies.model_error.laws import LawSpread, open_laws
-from comparisons.studies.model_error.model_error import Estimate, ModelError
+from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.selection import FLOW, EffectSelection
 from comparisons.studies.study import Run
 
@@ -20,7 +21,7 @@ NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})
 
 
 def error_of(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
-    shares = {name: Estimate(size, 1e-4) for name, size in effects.items()}
+    shares = {name: Part(name, size, 1e-4) for name, size in effects.items()}
     return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 from scenes import budgeted, refound
 
+from comparisons.figures.figure import Part
 from comparisons.studies.model_error.account import ErrorBudget
 from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.model_error import Estimate, ModelError
+from comparisons.studies.model_error.model_error import ModelError
 from comparisons.studies.model_error.selection import EffectSelection
 from comparisons.studies.model_error.show import (
     NUMERICAL,
@@ -31,9 +32,9 @@ SELECTION = EffectSelection(
     ESTIMATES,
 )
 EFFECTS_HERE = {
-    "finite_size": Estimate(0.04, 0.001),
-    "finite_roller": Estimate(-0.012, 0.0005),
-    "finite_strain": Estimate(0.0001, 0.0001),
+    "finite_size": Part("finite_size", 0.04, 0.001),
+    "finite_roller": Part("finite_roller", -0.012, 0.0005),
+    "finite_strain": Part("finite_strain", 0.0001, 0.0001),
 }
 
 
