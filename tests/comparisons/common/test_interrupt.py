@@ -29,15 +29,15 @@ import os, pathlib, signal, sys, time
 import comparisons.output.page.page
 comparisons.output.page.page.render = lambda *_: ""
 from comparisons.cli import main
-there = pathlib.Path("there")
+from fem.solver import mumps
+there, factorised = pathlib.Path("there"), mumps.factorised
 {replaced}
 sys.argv = ["crosscheck", "run", "scene.toml", "--out", "out"]
 sys.exit(main())
 """
 # A loop inside the interpreter that hears no signal, as a library's would not.
 STUCK = """
-from fem.solver import mumps
-factorised, calls = mumps.factorised, []
+calls = []
 def stuck(*given):
     calls.append(1)
     if len(calls) == {call}:
@@ -47,8 +47,6 @@ def stuck(*given):
 mumps.factorised = stuck
 """
 COUNTED = """
-from fem.solver import mumps
-factorised = mumps.factorised
 def counted(*given):
     with there.open("a") as file:
         file.write(".")
@@ -63,8 +61,6 @@ asleep += "open('there', 'w'); time.sleep(600)"
 build.WORKER = (sys.executable, "-c", asleep)
 """
 WAITS = """
-from fem.solver import mumps
-factorised = mumps.factorised
 def waits(*given):
     there.touch()
     while not pathlib.Path("go on").exists():
@@ -76,7 +72,6 @@ mumps.factorised = waits
 ALONE = "os.sched_getaffinity = lambda process: {0}\n"
 SIDE_BY_SIDE = "os.sched_getaffinity = lambda process: {0, 1}\n"
 CRASH = """
-from fem.solver import mumps
 mumps.factorised = lambda *args: os.kill(os.getpid(), signal.SIG{name})
 """
 
