@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 SLOWEST, FASTEST = 1e-3, 1e4
 # For thermal stresses, of the body: kappa/V is ten a then, a fortieth of what is meshed
 LEAST_STRESSED = 0.05
-BODIES = ("body", "roller")
 HEAT_QUANTITIES = ("flash_temperature", "mean_temperature", "fraction_into_body")
 HEATED, WITHOUT = ("tau1_heated", "tau1_depth_heated", "sx_heated"), "_without_heat"
 # Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
@@ -107,11 +106,9 @@ def half_space_heat(problem: Problem, level: Level) -> HeatedContact:
 
 def peclet_numbers(problem: Problem) -> dict[str, float]:
     """|V| a / (2 kappa) of each body, a of the smooth contact; 0 at rest."""
-    heat = problem.scene.heat
-    pairs = zip((heat.body, heat.roller), heat.velocities, strict=True)
-    half_width = problem.hertz.half_width
-    numbers = (abs(velocity) * half_width / (2.0 * m.diffusivity) for m, velocity in pairs)
-    return dict(zip(BODIES, numbers, strict=True))
+    heat, half_width = problem.scene.heat, problem.hertz.half_width
+    bodies = zip(("body", "roller"), (heat.body, heat.roller), heat.velocities, strict=True)
+    return {name: abs(v) * half_width / (2.0 * m.diffusivity) for name, m, v in bodies}
 
 
 def what_it_contains(problem: Problem) -> dict[str, str]:

@@ -41,12 +41,6 @@ def table(outcome, name, answer="other"):
     return [] if series is None else series.rows()
 
 
-def printed_summary(outcome):
-    console = Console(file=io.StringIO(), width=1000)
-    console.print(summary(outcome))
-    return console.file.getvalue()
-
-
 def off_its_conditions(outcome, model):
     """The largest residual of the pressures by a model's operator."""
     [row] = [row for row in table(outcome, CONDITIONS) if row["model"] == model]
@@ -79,7 +73,9 @@ def test_three_per_cent_more_differ(answered, curve):
         "differs from the half-plane in 1 of 2 judged figures; the farthest: peak pressure, +3.0"
     )
     assert words in sentence
-    printed = printed_summary(outcome)
+    console = Console(file=io.StringIO(), width=1000)
+    console.print(summary(outcome))
+    printed = console.file.getvalue()
     assert "NOT COMPARED" in printed and f"DIFFER  {sentence}".replace("±", "+-") in printed
     assert "only answers from outside were compared" in printed
 

@@ -181,11 +181,6 @@ class TestSwitch:
         for name in ("peak_pressure", SHIFT, "pressure_l2", "tau1_max"):
             assert one[name][1] == pytest.approx(other[name][1], rel=0.03)
 
-    def test_default_is_the_published_way(self):
-        posed = problem_of(RIGID)
-        assert not posed.scene.load.coupled and posed.coupling == 0.0
-        assert posed.scene.tables["load"]["coupled"] is False
-
     def test_strong_coupling_finds_its_extent(self):
         """mu beta = 0.75 reaches beyond 1.5 Hertz half-widths, where the other answer ends."""
         shift = np.arctan(0.75) / np.pi

@@ -20,6 +20,7 @@ from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 
 INSULATOR = {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # of a diffusivity like steel's
+INSULATING_BODY = {name.replace("roller", "body"): value for name, value in INSULATOR.items()}
 LAYER = {"conductivity": 2.0, "density": 5000.0, "specific_heat": 500.0}
 SCENE = {
     "roller": {"radius": 7.5706e-3, **STEEL},
@@ -138,8 +139,7 @@ def test_a_square_at_rest_is_a_half_space_with_its_reach():
 def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
     """All heat enters the roller. A disc's contact sees a half-space that reaches farther, as far
     as tests/fem/heat/test_conduction.py has it."""
-    section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
-    posed = made(slide_to_roll=2.0, **section, **({"reach": reach} if reach else {}))
+    posed = made(slide_to_roll=2.0, **INSULATING_BODY, **({"reach": reach} if reach else {}))
     level, heat, radius = half_plane_at(posed), posed.scene.heat, posed.scene.roller.radius
     far = heat.reach or radius
     half = 0.5 * far / radius
@@ -159,9 +159,8 @@ def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
 
 def test_a_fast_roller_is_a_half_space():
     """Of it, what is heated alone is meshed; a slow one is warmer than a half-space."""
-    section = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
     for speed, least, most in ((20.0, 2e-4, 2e-3), (2.0, 1e-3, 1e-2), (0.05, 0.01, 0.1)):
-        posed = made(slide_to_roll=-2.0, speed=speed, **section)
+        posed = made(slide_to_roll=-2.0, speed=speed, **INSULATING_BODY)
         level = half_plane_at(posed)
         disc, flat = (finite_element_heat(posed, level, without=w) for w in (set(), {"roller"}))
         assert disc.fraction == pytest.approx(0.0, abs=1e-4)

@@ -64,17 +64,13 @@ def test_shares_are_those_of_the_powers_in_hertz(outcome):
     moduli."""
     parts = np.array([0.5 * 4.0, 0.25 * 6.0, 0.5 * 3.0]) ** 2
     shares = outcome.figures.one(study="scatter", quantity="peak_pressure").spread.shares
-    expected = dict(zip(("load", "body_youngs_modulus", "roller_radius"), parts, strict=True))
-    for name, part in expected.items():
+    assert set(shares) == set(INPUTS)
+    for name, part in zip(INPUTS, parts, strict=True):
         assert shares[name]["first"] == pytest.approx(part / parts.sum(), abs=0.06)
         assert shares[name]["total"] == pytest.approx(part / parts.sum(), abs=0.06)
 
 
-def test_the_result_has_it_by_quantity(outcome):
-    [figure] = outcome.figures.of(study="scatter", quantity="peak_pressure")
-    low, high = figure.spread.interval
-    assert low < figure.spread.mean < high
-    assert set(figure.spread.shares) == set(INPUTS)
+def test_samples_are_counted(outcome):
     [counts] = outcome.findings["scatter"].table("samples").rows()
     assert counts["solutions"] == 64 * (3 + 2) and counts["failed"] == 0
     assert "scatter" not in run_of(SMOOTH, "half_plane").findings
