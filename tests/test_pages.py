@@ -2,12 +2,11 @@
 
 import re
 import shlex
-from pathlib import Path
 from typing import get_args
 
 import pytest
 from pydantic.fields import FieldInfo
-from scenes import page_rows
+from scenes import PROJECT, page_rows
 
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.figure import Figure
@@ -22,7 +21,6 @@ from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
 
-PROJECT = Path(__file__).resolve().parents[1]
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}

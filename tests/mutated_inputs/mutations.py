@@ -83,7 +83,7 @@ def flipped(draw: random.Random, content: bytes) -> bytes:
     """Bytes changed, cut off, put in, doubled or swapped."""
     start = draw.randrange(len(content) + 1)
     stop = min(len(content), start + draw.choice((1, 1, 2, 8, 64, 1024)))
-    kind = draw.randrange(6)
+    kind = draw.randrange(5)
     if kind == 0:
         changed = bytes(draw.randrange(256) for _ in range(stop - start))
     elif kind == 1:
@@ -91,11 +91,9 @@ def flipped(draw: random.Random, content: bytes) -> bytes:
             draw.choice(("utf-8", "utf-16", "latin-1")), "replace"
         )
     elif kind == 2:
-        changed = content[start:stop] * draw.choice((2, 3, 50))
+        changed = content[start:stop] * draw.choice((0, 2, 3, 50))
     elif kind == 3:
         return content[:start]
-    elif kind == 4:
-        changed = b""
     else:
         changed = content[start:stop][::-1]
     return content[:start] + changed + content[stop:]
@@ -121,12 +119,10 @@ def mutated_scene(draw: random.Random, text: str) -> bytes:
                 if head in text
                 else f"{text}\n{head}\n{line}\n"
             )
-        elif kind == 7 and draw.random() < 0.5:
-            del lines[draw.randrange(len(lines))]
-            text = "\n".join(lines)
-        elif kind == 7:
-            line = lines[draw.randrange(len(lines))]
-            lines.insert(draw.randrange(len(lines)), line)
+        elif kind == 7:  # a line is lost, or there twice
+            line = lines.pop(draw.randrange(len(lines)))
+            for _ in range(draw.choice((0, 2))):
+                lines.insert(draw.randrange(len(lines) + 1), line)
             text = "\n".join(lines)
         elif kind == 8 and assigned:
             match = draw.choice(assigned)
@@ -199,8 +195,6 @@ def mutated_profile(draw: random.Random, content: bytes) -> bytes:
         elif kind == 5:  # every height, or every place, scaled
             power = draw.choice((b"e300", b"e-300", b"e150", b"e-20", b"e29", b"e31", b"e8"))
             content = re.sub(rb"(\d)(\r?\n)", rb"\1" + power + rb"\2", content)
-        elif kind == 6:
-            content = content[: draw.randrange(len(content) + 1)]
         else:
             content = flipped(draw, content)
     return content

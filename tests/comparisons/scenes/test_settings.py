@@ -3,12 +3,12 @@
 import json
 
 import pytest
-from scenes import QUICK, resolved
+from scenes import QUICK, SMOOTH, changed, resolved, run_of
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.scenes.files import scene_names, value_of
-from comparisons.scenes.scene import Scene, with_settings
+from comparisons.scenes.scene import Scene, with_settings, with_tolerance
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -83,3 +83,20 @@ def test_every_command_that_takes_a_scene_refuses_it_and_writes_nothing(
     [line] = capsys.readouterr().err.splitlines()
     assert "smooth: body.yeild_stress: is no known field; the nearest is body.yield_stress" in line
     assert not list(tmp_path.iterdir())
+
+
+def test_a_tolerance_replaces_each_that_the_scene_has():
+    tightened = with_tolerance(Scene.read("smooth"), 0.005)
+    judged = "peak_pressure", "contact_length", "tau1_max"
+    assert tightened.tolerances == dict.fromkeys(judged, 5e-3)
+    assert tightened.tables["tolerance"] == tightened.tolerances
+
+
+def test_refinement_stops_where_the_tolerance_is_met():
+    coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
+    levels = []
+    for tolerance in (0.2, 2e-3):
+        outcome = run_of(with_tolerance(coarse, tolerance), "half_plane")
+        assert outcome.solved.refinement == "every judged quantity is resolved"
+        levels.append(len(outcome.runs["half_plane"].levels))
+    assert levels[0] == 3 < levels[1]
