@@ -22,7 +22,6 @@ from comparisons.studies.answers.meshes import _write_faces
 from comparisons.studies.answers.read import read_answers
 from meshes.block import structured
 
-NO_CCX = "no CalculiX: apt-get install calculix-ccx"
 # CalculiX, in mm and MPa, y up: half a plane in plane strain under a pressure on its top.
 DECK = """*NODE
 {nodes}
@@ -159,7 +158,7 @@ def test_the_roller_in_the_same_file_is_left_out(mesh, stress, hertz, tmp_path):
 def solved_by_calculix(mesh, hertz, tmp_path_factory):
     """`solved_by_calculix(flag)`: the result file of a pressed body."""
     if shutil.which("ccx") is None:
-        pytest.skip(NO_CCX)
+        pytest.skip("no CalculiX: apt-get install calculix-ccx")
     pytest.importorskip("pyvista_frd", reason="no pyvista-frd-reader: pip install")
     x, y = 1e3 * mesh.points[:, 0], -1e3 * mesh.points[:, 1]
     triangles = mesh.triangles[:, [0, 2, 1, 5, 4, 3]]

@@ -28,19 +28,15 @@ def test_ishigami():
         x, y, z = np.moveaxis(np.pi * (2.0 * cube - 1.0), -1, 0)
         return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
 
-    exact = shares_of_ishigami(7.0, 0.1)
+    x = 0.5 * (1.0 + 0.1 * np.pi**4 / 5.0) ** 2
+    y, together = 7.0**2 / 8.0, 8.0 * 0.1**2 * np.pi**8 / 225.0
+    exact = np.array([[x, y, 0.0], [x + together, y, together]]) / (x + y + together)
     result = shares_of(ishigami, 3, 4096)
     assert result.first == pytest.approx(exact[0], abs=0.02)
     assert result.total == pytest.approx(exact[1], abs=0.02)
     assert np.all(np.abs(result.first - exact[0]) < 2.0 * result.first_uncertainty)
     coarse = shares_of(ishigami, 3, 256)
     assert np.all(coarse.first_uncertainty > 2.0 * result.first_uncertainty)
-
-
-def shares_of_ishigami(a: float, b: float) -> np.ndarray:
-    x = 0.5 * (1.0 + b * np.pi**4 / 5.0) ** 2
-    y, together = a**2 / 8.0, 8.0 * b**2 * np.pi**8 / 225.0
-    return np.array([[x, y, 0.0], [x + together, y, together]]) / (x + y + together)
 
 
 @pytest.mark.parametrize("samples", [16, 64])
