@@ -45,7 +45,13 @@ def unresolved_crest(
         return 0.0
     least = max(float(np.diff(problem.surface.profile.x).min()), grid.pitch / FINER**MOST)
     enough, histories = ENOUGH * least, []
-    for top in _crests(solution.pressure, np.log2(grid.pitch / enough)):
+    # maxima that may become the highest: each halving adds no more than what a node stands above
+    # its neighbours by
+    pressure, halvings = solution.pressure, np.log2(grid.pitch / enough)
+    before, after = np.roll(pressure, 1), np.roll(pressure, -1)
+    most = pressure + max(1.0, halvings) * (2.0 * pressure - before - after)
+    [tops] = np.nonzero((pressure >= np.maximum(before, after)) & (most >= pressure.max()))
+    for top in tops[np.argsort(-most[tops])][:MOST]:
         fine, pressed, history = grid, solution, []
         while not history or fine.pitch > enough:
             place = fine.x[top]
@@ -57,16 +63,6 @@ def unresolved_crest(
         histories.append(history)
     change = float(np.abs(np.max(histories, axis=0) / peak - 1.0).max())
     return SAFETY * change if change > RESOLVED else 0.0
-
-
-def _crests(pressure: np.ndarray, halvings: float) -> np.ndarray:
-    """Nodes of the maxima that may become the highest: each halving adds no more than what a node
-    stands above its neighbours by."""
-    stands_out = 2.0 * pressure - np.roll(pressure, 1) - np.roll(pressure, -1)
-    most = pressure + max(1.0, halvings) * stands_out
-    higher = np.maximum(np.roll(pressure, 1), np.roll(pressure, -1))
-    [tops] = np.nonzero((pressure >= higher) & (most >= pressure.max()))
-    return tops[np.argsort(-most[tops])][:MOST]
 
 
 def _refined(

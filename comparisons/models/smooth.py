@@ -36,7 +36,13 @@ def closed_form(problem: Problem) -> ClosedForm | None:
     scene, hertz = problem.scene, problem.hertz
     if not scene.periodic:
         size = hertz.peak_pressure, 2.0 * hertz.half_width
-        of = hertz.pressure, partial(hertz_stress, hertz), partial(_hertz_extremes, problem)
+
+        def extremes(friction: float) -> dict[str, Extremum]:
+            largest = hertz_extremes(hertz, friction)
+            shears = largest.txz_max, largest.txz_min
+            return {"tau1": largest.tau1, "txz": max(shears, key=lambda one: abs(one.value))}
+
+        of = hertz.pressure, partial(hertz_stress, hertz), extremes
         return ClosedForm("Hertz", "Hertz, smooth", *size, *of)
     profile, nu = scene.profile, scene.body.poissons_ratio
     if profile.variety != "sinusoid" or profile.cutoff or profile.short_cutoff:
@@ -62,9 +68,3 @@ def closed_form(problem: Problem) -> ClosedForm | None:
 def scale_words(problem: Problem) -> str:
     """What peak pressure and half-width of the smooth contact are, by which figures are shown."""
     return "mean" if problem.scene.periodic else "Hertz"
-
-
-def _hertz_extremes(problem: Problem, friction: float) -> dict[str, Extremum]:
-    largest = hertz_extremes(problem.hertz, friction)
-    shear = max(largest.txz_max, largest.txz_min, key=lambda extremum: abs(extremum.value))
-    return {"tau1": largest.tau1, "txz": shear}

@@ -76,17 +76,20 @@ def finite_element_level(
         with stages.stage("assembly", "finite elements: loading"):
             start_worker()
             load_dolfinx()
-        ranges, start = solving.predicted_contact()
+        grid = solving.grid
+        with stages.stage("contact", "finite elements: predicting the contact"):
+            guess = solve_on(solving.model, solving.weighted_gap, grid.weights, problem.widest)
+        ranges = contact_patches(grid.x, guess.pressure, guess.gap)
         flows = problem.scene.finite_element.plastic
         patches = flowing_contact(problem) if flows else ranges
         cost = expected(problem, plan, refinement, patches)
         refuse_too_large(problem, cost, "finite elements", refinement.pitch)
-        meshed = solving.meshed_contact(ranges, start, body_cache)
+        meshed = solving.meshed_contact(ranges, guess.pressure, body_cache)
         pressed = solving.pressed(meshed)
         level = Level(
-            grid=solving.grid,
+            grid=grid,
             solution=pressed.solution,
-            displacement=pressed.displacement / solving.grid.weights,
+            displacement=pressed.displacement / grid.weights,
             patches=pressed.patches,
             seconds=stages.seconds,
             unknowns=sum(body.unknowns for body in meshed.bodies.all),
@@ -162,13 +165,6 @@ class _LevelSolution:
             return 0.0
         modulus = combined_modulus(scene.roller.material, surface_material(scene))
         return unresolved_crest(self.problem, modulus, self.grid, solution)
-
-    def predicted_contact(self) -> tuple[np.ndarray, np.ndarray]:
-        """Patches (k, 2) [m] and pressures (n,) [Pa] of the analytic model."""
-        grid = self.grid
-        with self.stages.stage("contact", "finite elements: predicting the contact"):
-            guess = solve_on(self.model, self.weighted_gap, grid.weights, self.problem.widest)
-        return contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
 
     def meshed_contact(
         self, ranges: np.ndarray, start: np.ndarray, body_cache: BodyCache

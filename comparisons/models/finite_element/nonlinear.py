@@ -59,8 +59,7 @@ def pressed_finitely(
         "increments": len(finite.solution.residuals),
         "newton_steps": finite.solution.iterations,
         "corrections": finite.solution.corrections,
-        **{f"linear_{name}": count for name, count in linear.iterations.items()},
-    }
+    } | _of_linear(linear)
     body, cauchy = operator.rough.body, finite.cauchy
     loaded = _deformed(body, grid, finite, constraints, counts, FINITE_TOLERANCE, cauchy.nodal)
     loaded = replace(loaded, across=cauchy.across)
@@ -202,10 +201,7 @@ def pressed_plastically(
     refuse_cut_off(problem, grid, loaded.pressure, linear.pressure, "of the flowing body")
     moved = rough.weighted(loaded.displacement)
     both = moved if roller is None else moved + roller.apply(loaded.pressure, -friction)
-    counts = {
-        "linear_contacts": loaded.iterations,
-        **{f"linear_{name}": count for name, count in linear.iterations.items()},
-    }
+    counts = {"linear_contacts": loaded.iterations} | _of_linear(linear)
     solution = assessed(
         both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
     )
@@ -246,10 +242,7 @@ def pressed_plastically_finitely(
     pressed, released = way.through((constraints.load, 0.0), reached)
     finite = pressed.deformed
     refuse_cut_off(problem, grid, finite.pressure, linear.pressure, "of the flowing body")
-    counts = {
-        "linear_contacts": pressed.iterations,
-        **{f"linear_{name}": count for name, count in linear.iterations.items()},
-    }
+    counts = {"linear_contacts": pressed.iterations} | _of_linear(linear)
     fields = plastic_fields(way.body, pressed)
     stress = at_nodes(rough.body, fields.stress)
     loaded = _deformed(rough.body, grid, finite, constraints, counts, FLOW_TOLERANCE, stress)
@@ -259,6 +252,11 @@ def pressed_plastically_finitely(
     known = {"across": fields.sy, "bearable": fields.most / 3**0.5}
     loaded = replace(loaded, **known, others=_of_flow(way.body, pressed, released))
     return _on_undeformed_grid(problem, grid, finite.place, loaded)
+
+
+def _of_linear(linear: ContactSolution) -> dict[str, int]:
+    """What the linear contact took that was begun with."""
+    return {f"linear_{name}": count for name, count in linear.iterations.items()}
 
 
 def _of_flow(

@@ -129,7 +129,13 @@ def operator_level(
 
         solution = solve(gap)
         if "finite_strain" in held:
-            solution = _deformed_contact(problem, grid).pressed(solve, solution)
+            scene, profile = problem.scene, problem.surface.profile
+            height = np.zeros_like if profile is None else profile.spline()
+            roller = None if scene.roller.rigid else scene.roller.material
+            sagitta = roller_gap(scene.roller.radius, None, scene.finite_element.roller_shape)
+            shape = roller, height, sagitta, problem.knots
+            deformed = DeformedContact(grid, scene.body.material, *shape)
+            solution = deformed.pressed(solve, solution)
         level = Level(
             grid=grid,
             solution=solution,
@@ -143,14 +149,6 @@ def operator_level(
             stresses = tuple(_stresses(problem, level, window, frictions))
         level = replace(level, stresses=stresses)
     return replace(level, peak_memory=peak_memory())
-
-
-def _deformed_contact(problem: Problem, grid: HatGrid) -> DeformedContact:
-    scene, profile = problem.scene, problem.surface.profile
-    height = np.zeros_like if profile is None else profile.spline()
-    roller = None if scene.roller.rigid else scene.roller.material
-    sagitta = roller_gap(scene.roller.radius, None, scene.finite_element.roller_shape)
-    return DeformedContact(grid, scene.body.material, roller, height, sagitta, problem.knots)
 
 
 def operator_of(problem: Problem, grid: HatGrid, coupling: float) -> ModelOperator:

@@ -195,7 +195,8 @@ class Ladder:
     def _own(self) -> Rung | None:
         """The scene's own finite elements, where they have effects and are not the whole."""
         contained, every = self.budget.selection.contained, self.budget.solutions
-        if not contained or all(solutions.contains_all for solutions in every.values()):
+        lacking = (solutions.missing[-1].figures.values() for solutions in every.values())
+        if not contained or not any(np.any(change) for figures in lacking for change in figures):
             return None
         kind = kind_of(contained)
         errors = [

@@ -127,11 +127,6 @@ class Solutions:
         return QuantitiesOfInterest(figures)
 
     @cached_property
-    def contains_all(self) -> bool:
-        """Whether the scene's own finite elements are the whole already."""
-        return not any(map(np.any, self.missing[-1].figures.values()))
-
-    @cached_property
     def unsolved(self) -> float:
         """What the solvers' iterations leave, relative."""
         number = len(self.history) - 1

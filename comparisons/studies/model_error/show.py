@@ -110,9 +110,14 @@ def model_error_rows(run: Run, judged: bool = False) -> list[TableRow]:
         size = law_range(error) or error_text(error.value, error.numerical)
         tolerance = "" if error.bounds is None else percent_as_written(error.tolerance)
         said = ", ".join(contributions(run, error)), _not_known(run, error), _moved(error)
-        shown = size, percent(error.numerical)
-        shown = (UNKNOWN, UNKNOWN) if leaves_flow_out(run, error) else shown
-        return *_values(run, error), *shown, tolerance, *said
+        whole = figure_of_whole(run, error)
+        pair = whole + error.scale * error.value, whole
+        scale = scale_of(pair, QUANTITIES[error.quantity].unit)
+        shown = scale.text(whole), size, percent(error.numerical)
+        shown = (
+            (UNKNOWN,) * 3 if leaves_flow_out(run, error) else shown
+        )  # without flow that matters
+        return scale.text(pair[0]), *shown, tolerance, *said
 
     return table_rows(errors, [name for name in QUANTITIES if name in names], cells)
 
@@ -123,14 +128,6 @@ def figure_of_whole(run: Run, error: Figure) -> float:
     half_plane = run.figures.one(**known, friction=error.friction).value
     whole = half_plane - error.scale * error.value
     return whole if abs(whole) > ROUNDING * error.scale else 0.0
-
-
-def _values(run: Run, error: Figure) -> tuple[str, str]:
-    """The figures of the half-plane and of the whole model, where it has the flow that matters."""
-    whole = figure_of_whole(run, error)
-    pair = whole + error.scale * error.value, whole
-    scale = scale_of(pair, QUANTITIES[error.quantity].unit)
-    return scale.text(pair[0]), UNKNOWN if leaves_flow_out(run, error) else scale.text(pair[1])
 
 
 def leaves_flow_out(run: Run, error: Figure) -> bool:

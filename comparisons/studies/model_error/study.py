@@ -95,17 +95,16 @@ def early_lines(
     pressure = level.under(friction).solution.pressure
     every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
     sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
-    left = [_bound(name, [of.get(name, 0.0) for of in sizes.values()]) for name in figures]
+    left = []
+    for name in figures:
+        total = sum(of.get(name, 0.0) for of in sizes.values())
+        size = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"
+        left.append(f"{QUANTITIES[name].short} {size}")
     most = max(sizes, key=lambda effect: max(sizes[effect].get(name, 0.0) for name in figures))
     return (
         f"half-plane: {', '.join(said)}",
         f"left out, by estimates at most: {', '.join(left)}, mostly {EFFECTS[most].label}",
     )
-
-
-def _bound(quantity: str, sizes: list[float]) -> str:
-    total, name = sum(sizes), QUANTITIES[quantity].short
-    return f"{name} {100.0 * total:.2g} %" if total < 1.0 else f"{name} 100 % or more"
 
 
 STUDY = Study(

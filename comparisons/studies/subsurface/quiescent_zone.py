@@ -148,12 +148,12 @@ def asperity_rows(
         columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
         patches = np.clip(level.patches, max(start, -a), min(stop, a))
         lengths = np.diff(patches, axis=1)[:, 0]
-        if not np.any(columns) or lengths.sum() <= 0.0:
+        length = float(lengths.sum())
+        if not np.any(columns) or length <= 0.0:
             continue
         shear = np.max(tau1[:, columns], axis=1)
         dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
-        place = float(lengths @ patches.mean(axis=1) / lengths.sum())
-        length = float(lengths.sum())
+        place = float(lengths @ patches.mean(axis=1) / length)
         rows.append({"x": place, "length": length, "level": dip.level, "state": dip.status})
     return rows
 
