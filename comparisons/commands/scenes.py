@@ -4,7 +4,7 @@ profile, `deck` hands one to another code."""
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from typer import Argument, Option
 
@@ -19,9 +19,6 @@ from comparisons.commands.arguments import (
 )
 from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus, InputError
-
-if TYPE_CHECKING:
-    from comparisons.campaigns.init.show import FirstScene
 
 Code = Literal["calculix", "fenicsx"]
 # What no trace shows, by the option of `init`: those that stand for it, too, and what is asked.
@@ -106,8 +103,21 @@ def init(
     made = write_first_scene(profile, out, options, force, picture, ask)
     if as_json:
         show_json(made.as_dict())
-    else:
-        _say_what_was_made(made)
+        return ExitStatus.DONE
+    from comparisons.campaigns.init.show import first_lines, init_table
+    from comparisons.output.terminal import PLAIN
+
+    show(init_table(made))
+    assumed = [
+        f"{section}.{name} = {value}"
+        for section in ("roller", "body", "load")
+        for name, value in made.scene.written[section].items()
+        if name in made.examples
+    ]
+    if assumed:
+        print(f"assumed as examples, put in yours: {', '.join(assumed)}")
+    for line in first_lines(made.scene):
+        print(line.translate(PLAIN))
     return ExitStatus.DONE
 
 
@@ -130,25 +140,6 @@ def _asked(options: Mapping[str, str | int | None]) -> dict[str, str | int | Non
                 break
             answers[name] = said
     return answers
-
-
-def _say_what_was_made(made: "FirstScene") -> None:
-    """What was seen in the profile, assumed beside the options, and the half-plane's answer on the
-    coarsest level."""
-    from comparisons.campaigns.init.show import first_lines, init_table
-    from comparisons.output.terminal import PLAIN
-
-    show(init_table(made))
-    assumed = [
-        f"{section}.{name} = {value}"
-        for section in ("roller", "body", "load")
-        for name, value in made.scene.written[section].items()
-        if name in made.examples
-    ]
-    if assumed:
-        print(f"assumed as examples, put in yours: {', '.join(assumed)}")
-    for line in first_lines(made.scene):
-        print(line.translate(PLAIN))
 
 
 @job

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.material import Material
 from analytic.material.hardening import Hardening
 from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, deck_problem
 from comparisons.common.errors import InputError, SceneError
@@ -119,7 +118,11 @@ def _materials(deck: DeckProblem) -> Iterator[tuple[str, tuple[str, str]]]:
                     f'{scene.source}: {section}.law: is "{material.law.name}"; '
                     f"allowed in a deck for calculix is {allowed}"
                 )
-            yield name + part, (keyword, _constants(material, keyword))
+            modulus, nu = material.youngs_modulus * MPA, material.poissons_ratio
+            constants = modulus, nu
+            if keyword == HYPERELASTIC:  # C10 = mu/2, D1 = 2/K
+                constants = 0.5 * material.shear_modulus * MPA, 6.0 * (1.0 - 2.0 * nu) / modulus
+            yield name + part, (keyword, ", ".join(f"{constant:.12g}" for constant in constants))
 
 
 def _flow(deck: DeckProblem) -> tuple[str, list[str]] | None:
@@ -141,14 +144,6 @@ def _flow(deck: DeckProblem) -> tuple[str, list[str]] | None:
         strains = np.array([0.0, FARTHEST] if law.modulus else [0.0])
     rows = zip(law.stress(strains) * MPA, strains / deck.flatter, strict=True)
     return kind, [f"{stress:.12g}, {strain:.12g}" for stress, strain in rows]
-
-
-def _constants(material: Material, keyword: str) -> str:
-    modulus, nu = material.youngs_modulus * MPA, material.poissons_ratio
-    if keyword == ELASTIC:
-        return f"{modulus:.12g}, {nu:.12g}"
-    # C10 = mu/2, D1 = 2/K
-    return f"{0.5 * material.shear_modulus * MPA:.12g}, {6.0 * (1.0 - 2.0 * nu) / modulus:.12g}"
 
 
 def _mesh(deck: DeckProblem) -> Iterator[str]:

@@ -52,6 +52,16 @@ def in_terminal(folder: Path, **more: str) -> str:
     return said.decode()
 
 
+def in_pipe(*command: str, folder: Path, **more: str) -> str:
+    """What it says where both its outputs are piped: nothing to standard error."""
+    done = subprocess.run(
+        [sys.executable, *command], cwd=folder, env=environment(**more), capture_output=True,
+        text=True, check=True
+    )  # fmt: skip
+    assert done.stderr == ""
+    return done.stdout
+
+
 @pytest.fixture
 def folder(tmp_path) -> Path:
     (tmp_path / "scene.toml").write_text(SCENE)
@@ -73,31 +83,15 @@ def test_a_terminal_gets_progress_and_colours_unless_it_wants_none(folder, more)
 
 @pytest.mark.parametrize("more", [{}, {"FORCE_COLOR": "1"}])
 def test_a_pipe_gets_neither(folder, more):
-    done = subprocess.run(
-        [sys.executable, "-c", COMMAND],
-        cwd=folder,
-        env=environment(**more),
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert done.stderr == ""
-    assert "\x1b" not in done.stdout and "peak pressure" in done.stdout
+    said = in_pipe("-c", COMMAND, folder=folder, **more)
+    assert "\x1b" not in said and "peak pressure" in said
 
 
 def answer(line: str) -> list[str]:
     """What the shell is told that the last word of a line may become."""
     asked = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
-    done = subprocess.run(
-        [sys.executable, "-m", "comparisons.cli"],
-        env=environment(_CROSSCHECK_COMPLETE="complete_bash", **asked),
-        cwd=PROJECT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert done.stderr == ""
-    return done.stdout.split()
+    asked["_CROSSCHECK_COMPLETE"] = "complete_bash"
+    return in_pipe("-m", "comparisons.cli", folder=PROJECT, **asked).split()
 
 
 def test_scenes_are_completed(tmp_path, monkeypatch):

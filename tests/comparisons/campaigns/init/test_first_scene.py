@@ -34,7 +34,7 @@ def heights(z) -> str:
 
 NAMED = ("x_um,z_um\n" + rows(X, Z)).encode()
 FILES = {
-    "commas under named columns": ("x_um,height_um\n" + rows(X, Z)).encode(),
+    "commas under named columns": NAMED.replace(b"z_um", b"height_um"),
     "decimal commas": ("x [mm];z [µm]\n" + rows(1e-3 * X, Z, ";").replace(".", ",")).encode(
         "latin-1"
     ),
@@ -49,7 +49,7 @@ FILES = {
         "x [mm],raw [um],levelled [nm]\n"
         + "".join(f"{a / 1e3:.6g},{b:.6g},0\n" for a, b in zip(X, Z, strict=True))
     ).encode(),
-    "packed": gzip.compress(("x_um,z_um\n" + rows(X, Z)).encode()),
+    "packed": gzip.compress(NAMED),
     "heights with their spacing": ("# step = 0,5 um\n# z in nm\n" + heights(1e3 * Z)).encode(),
     "lost samples": ("x_um,z_um\n" + rows(X, Z).replace("100,", "100,NaN #", 1)).encode(),
 }
@@ -70,7 +70,9 @@ HEADS = {  # units of x and of z, as a scene has them
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch) -> Path:
+    """The working folder, with a trace in it."""
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "trace.csv").write_bytes(NAMED)
     return tmp_path
 
 
@@ -175,7 +177,6 @@ def test_what_the_trace_is_like_is_told(folder, capsys, x, z, words):
 
 
 def test_bodies_and_load_are_options(folder):
-    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
     options = ["--radius", "4 mm", "--load", "0.05 N/um", "--youngs-modulus", "70 GPa"]
     options += ["--poissons-ratio", "0.33", "--hardness", "2 GPa", "--friction", "0.2"]
     assert main(["init", "trace.csv", *options]) == 0
@@ -194,7 +195,6 @@ def test_bodies_and_load_are_options(folder):
 
 def test_a_picture_stands_beside_the_scene(folder, capsys, monkeypatch):
     monkeypatch.setattr(first_scene, "picture", picture)
-    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
     assert main(["init", "trace.csv", "--out", "mine.toml"]) == 0
     assert "picture mine.svg" in capsys.readouterr().out
     assert ElementTree.parse("mine.svg").getroot().tag.endswith("svg")
@@ -268,7 +268,6 @@ def test_what_is_asked_for_is_not_guessed(folder):
 
 
 def test_json(folder, capsys):
-    (folder / "trace.csv").write_bytes(FILES["commas under named columns"])
     assert main(["init", "trace.csv", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["scene"] == "trace.toml"
@@ -281,7 +280,7 @@ def test_json(folder, capsys):
 @pytest.mark.parametrize(
     ("name", "content", "arguments", "words"),
     [
-        ("trace.csv", None, [], "there is no such file"),
+        ("absent.csv", None, [], "there is no such file"),
         ("trace.csv", b"", [], "is empty"),
         ("trace.csv", b"one\ntwo\n", [], "has no samples"),
         ("trace.csv", b"1,2\n2,x\n3,4\n4,5\n", [], "is not a number"),
@@ -294,12 +293,12 @@ def test_json(folder, capsys):
         ("trace.csv", rows(X, Z).encode(), ["--out", "trace.csv", "--force"], "the profile itself"),
         ("trace.csv", rows(1e-3 * X[:9], Z[:9]).encode(), ["--x-unit", "um", "--z-unit", "um"],
          "trace.csv: load"),
-        ("trace.csv", NAMED, ["--radius", "4 N"], "--radius: is "),
-        ("trace.csv", NAMED, ["--poissons-ratio", "0.6"], "--poissons-ratio: is 0.6; allowed is"),
-        ("trace.csv", NAMED, ["--load", "1 N/um", "--peak-pressure", "1 GPa"],
+        ("trace.csv", None, ["--radius", "4 N"], "--radius: is "),
+        ("trace.csv", None, ["--poissons-ratio", "0.6"], "--poissons-ratio: is 0.6; allowed is"),
+        ("trace.csv", None, ["--load", "1 N/um", "--peak-pressure", "1 GPa"],
          "--peak-pressure: is given beside"),
-        ("trace.csv", NAMED, ["--radius", "9 m", "--load", "1 N/um"], "trace.csv: load"),
-        ("trace.csv", NAMED, ["--columns", "0,1,2"], "--columns: is a list of 3"),
+        ("trace.csv", None, ["--radius", "9 m", "--load", "1 N/um"], "trace.csv: load"),
+        ("trace.csv", None, ["--columns", "0,1,2"], "--columns: is a list of 3"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_used_is_one_line_and_leaves_nothing(
@@ -316,7 +315,6 @@ def test_what_cannot_be_used_is_one_line_and_leaves_nothing(
 
 
 def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
-    (folder / "trace.csv").write_bytes(FILES["commas under named columns"])
     (folder / "trace.toml").write_text("mine")
     assert main(["init", "trace.csv"]) == 2
     assert "trace.toml: is there already; allowed is --force" in capsys.readouterr().err
