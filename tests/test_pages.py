@@ -2,7 +2,6 @@
 
 import re
 import shlex
-from typing import get_args
 
 import pytest
 from pydantic.fields import FieldInfo
@@ -12,10 +11,10 @@ from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TW
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.notebook import run
-from comparisons.scenes.fields import SceneSection, allowed, file_fields
+from comparisons.scenes.fields import allowed, file_fields
 from comparisons.scenes.finite_element import BLOCK
 from comparisons.scenes.profile import COMMON, VARIETIES
-from comparisons.scenes.scene import Scene
+from comparisons.scenes.scene import Scene, sections_of
 from comparisons.studies import STUDIES
 from comparisons.studies.model_error.catalogue import EFFECTS
 from comparisons.studies.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
@@ -39,17 +38,6 @@ def every_row(page: str, heading: str) -> list[list[str]]:
     return cells
 
 
-def model_of(section: str) -> type[SceneSection]:
-    """The class of a scene's section; of a table of sections theirs."""
-    waiting = [Scene.model_fields[section].annotation]
-    while waiting:
-        kind = waiting.pop()
-        if isinstance(kind, type) and issubclass(kind, SceneSection):
-            return kind
-        waiting += get_args(kind)
-    raise LookupError(section)
-
-
 def short(words: str) -> str:
     """What a field may hold, without how to write a unit."""
     without = re.sub(r': a number in [^ ]+ or "[^"]*"', "", words)
@@ -70,7 +58,7 @@ def shown(field: FieldInfo) -> str:
 
 
 NAMES = re.compile(r"`(\w+)`").findall
-TABLES = [name for name in Scene.model_fields if name != "title"]
+SECTIONS = sections_of(Scene)
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -126,10 +114,10 @@ class TestVerdict:
 
 
 class TestReference:
-    @pytest.mark.parametrize("section", TABLES)
+    @pytest.mark.parametrize("section", SECTIONS)
     def test_fields_are_those_of_the_scene(self, section):
         """Their names, what is allowed and the defaults."""
-        model = model_of(section)
+        model = SECTIONS[section]
         named = {cells[0].strip("`"): cells for cells in every_row("reference", f"`{section}`")}
         assert named.keys() == file_fields(model).keys()
         for name, (_, _, words, *default) in named.items():
@@ -179,7 +167,7 @@ class TestMethod:
         named = set(re.findall(r"`(body|finite_element|load)\.(\w+)", TEXT["method"]))
         assert len(named) >= 7
         for section, field in named:
-            assert field in file_fields(model_of(section))
+            assert field in file_fields(SECTIONS[section])
 
 
 def test_the_changelog_has_the_version_that_is_here():

@@ -80,15 +80,16 @@ def kinds_of(*roots: type) -> dict[str, type]:
         if is_dataclass(kind) and kind.__name__ not in kinds:
             kinds[kind.__name__] = kind
             for hint in typing.get_type_hints(kind).values():
-                left += _mentioned(hint)
+                left += types_in(hint)
     return kinds
 
 
-def _mentioned(hint: object) -> Iterator[type]:
+def types_in(hint: object) -> Iterator[type]:
+    """The classes that a type hint mentions."""
     if isinstance(hint, type):
         yield hint
     for part in typing.get_args(hint):
-        yield from _mentioned(part)
+        yield from types_in(part)
 
 
 def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:

@@ -19,6 +19,7 @@ from typing import Annotated, Self, get_args
 from pydantic import PrivateAttr, ValidationError, create_model, model_validator
 
 import comparisons.scenes.studies as of_studies
+from comparisons.common.cache import types_in
 from comparisons.common.errors import InputError, SceneError, nearest
 from comparisons.common.units import Dimension, describe
 from comparisons.scenes.fields import (
@@ -273,15 +274,12 @@ def _shown(value: object) -> str:
 
 def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
     """The sections that a file may have, by name; of such as [answers.NAME] that of any name."""
-
-    def inside(annotation: object) -> Iterator[type[SceneSection]]:
-        if isinstance(annotation, type) and issubclass(annotation, SceneSection):
-            yield annotation
-        for part in get_args(annotation):
-            yield from inside(part)
-
-    hints = {name: info.annotation for name, info in scene.model_fields.items()}
-    return {name: section for name, hint in hints.items() for section in inside(hint)}
+    return {
+        name: kind
+        for name, info in scene.model_fields.items()
+        for kind in types_in(info.annotation)
+        if issubclass(kind, SceneSection)
+    }
 
 
 def dimension_of(field: str) -> Dimension | None:

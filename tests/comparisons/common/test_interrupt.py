@@ -82,7 +82,7 @@ def folder(tmp_path) -> Path:
     return tmp_path
 
 
-def started(folder: Path, replaced: str = "") -> subprocess.Popen:
+def started(folder: Path, replaced: str) -> subprocess.Popen:
     (folder / "there").unlink(missing_ok=True)
     environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
     return subprocess.Popen(
@@ -96,13 +96,15 @@ def started(folder: Path, replaced: str = "") -> subprocess.Popen:
     )
 
 
-def reached(folder: Path, process: subprocess.Popen) -> None:
-    """Wait until the process is where it is to be stopped."""
+def reached(folder: Path, replaced: str) -> subprocess.Popen:
+    """A process that is where it is to be stopped."""
+    process = started(folder, replaced)
     end = time.monotonic() + PATIENT
     while not (folder / "there").exists():
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < end
         time.sleep(0.02)
+    return process
 
 
 def count(folder: Path) -> int:
@@ -115,8 +117,7 @@ def count(folder: Path) -> int:
 
 @pytest.mark.parametrize("interrupt", [os.kill, os.killpg], ids=["a signal", "a terminal"])
 def test_in_the_middle_of_a_factorisation(folder, interrupt):
-    process = started(folder, ALONE + STUCK.format(call=3))
-    reached(folder, process)
+    process = reached(folder, ALONE + STUCK.format(call=3))
     interrupt(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=PATIENT)
     assert process.returncode == ExitStatus.INTERRUPTED
@@ -134,8 +135,7 @@ def test_in_the_middle_of_a_factorisation(folder, interrupt):
 
 def test_in_the_middle_of_factorisations_side_by_side(folder):
     """What each process had finished is not computed again."""
-    process = started(folder, SIDE_BY_SIDE + STUCK.format(call=2))
-    reached(folder, process)
+    process = reached(folder, SIDE_BY_SIDE + STUCK.format(call=2))
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=PATIENT)
     assert (process.returncode, out) == (ExitStatus.INTERRUPTED, "")
@@ -147,8 +147,7 @@ def test_in_the_middle_of_factorisations_side_by_side(folder):
 
 @pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
 def test_in_the_middle_of_meshing(folder, beside, session, until):
-    process = started(folder, beside + MESHER)
-    reached(folder, process)
+    process = reached(folder, beside + MESHER)
     os.kill(process.pid, signal.SIGINT)
     _, err = process.communicate(timeout=PATIENT)
     assert process.returncode == ExitStatus.INTERRUPTED
@@ -196,16 +195,14 @@ def test_the_end_of_the_process_of_a_level_is_one_line(folder, beside):
 @pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
 @pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
 def test_nothing_outlives_the_command(folder, sent, beside):
-    process = started(folder, beside + STUCK.format(call=1))
-    reached(folder, process)
+    process = reached(folder, beside + STUCK.format(call=1))
     process.send_signal(sent)
     process.communicate(timeout=PATIENT)  # returns when nobody holds its output any more
     assert process.returncode == -sent
 
 
 def test_an_ignored_interrupt_stays_ignored(folder):
-    process = started(folder, f"{ALONE}signal.signal(signal.SIGINT, signal.SIG_IGN)\n{WAITS}")
-    reached(folder, process)
+    process = reached(folder, f"{ALONE}signal.signal(signal.SIGINT, signal.SIG_IGN)\n{WAITS}")
     process.send_signal(signal.SIGINT)
     (folder / "go on").touch()
     _, err = process.communicate(timeout=PATIENT)

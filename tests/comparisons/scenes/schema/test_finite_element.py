@@ -1,10 +1,9 @@
 """Bodies and the [finite_element] switches: what follows from others, and what is said."""
 
-import copy
 from types import SimpleNamespace
 
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEEL, changed, resolved
 
 from analytic.material import Law
 from analytic.material.hardening import Hardening
@@ -27,10 +26,7 @@ CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 
 
 def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict):
-    tables = copy.deepcopy(tables)
-    for name, fields in {**sections, "finite_element": finite_element or {}}.items():
-        tables[name] = tables.get(name, {}) | fields
-    return resolved(tables)
+    return resolved(changed(tables, **sections, finite_element=finite_element or {}))
 
 
 @pytest.mark.parametrize(
