@@ -83,6 +83,7 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
+        from comparisons.common.files import check_writable, holds_comparison
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
@@ -102,7 +103,13 @@ def run(
             print(line.translate(PLAIN))
         return ExitStatus.DONE
     directory = out or RESULTS / asked.name
-    _check_places(directory, junit, chosen)
+    check_writable(directory)
+    if junit is not None:
+        from comparisons.output.junit import check_place
+
+        check_place(junit)
+    if len(chosen) == 1 and holds_comparison(directory):
+        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
     say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
@@ -187,16 +194,3 @@ def _workers(scheduler: str | None) -> "AbstractContextManager[Opens | None]":
     from comparisons.common.executors import cluster
 
     return cluster(scheduler)
-
-
-def _check_places(directory: Path, junit: Path | None, models: Sequence[str]) -> None:
-    """Raise InputError unless the files can be written; say what one model alone replaces."""
-    from comparisons.common.files import check_writable, holds_comparison
-
-    check_writable(directory)
-    if junit is not None:
-        from comparisons.output.junit import check_place
-
-        check_place(junit)
-    if len(models) == 1 and holds_comparison(directory):
-        tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
