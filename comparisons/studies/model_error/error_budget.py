@@ -266,14 +266,19 @@ def selected_effects(
     """As the half-plane selects them, and what is `known` of effects that were computed."""
     contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
     pressure = max(contacts, key=np.max)
-    flow, peak = flow_assessment(solved.problem, solved.runs), float(pressure.max())
+    problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
+    flow, peak = flow_assessment(problem, solved.runs), float(pressure.max())
+    # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
+    if not why_not(FLOW, problem) and time_with_flow(problem, solved.plan, patches) > problem.time:
+        more = with_unit(flow_seconds(problem, patches), "s", 2)
+        no_time = f"it takes {more} more (budget.time)"
     selection = select_effects(
-        *(solved.problem, peak, couplings, mean_pressure(pressure)),
+        *(problem, peak, couplings, mean_pressure(pressure)),
         shear=flow.least_shear,
         known=known,
-        no_time=_no_time_for_flow(solved),
+        no_time=no_time,
     )
-    asked = solved.problem.scene.budget.effects
+    asked = problem.scene.budget.effects
     if not solved.plan.effects:
         computed = {LAW} if selection.laws else set()  # beside the added
         left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
@@ -290,15 +295,6 @@ def selected_effects(
 def mean_pressure(pressure: np.ndarray) -> float:
     """[Pa] that the load stands under on average, by equal elements."""
     return float(pressure @ pressure / pressure.sum())
-
-
-def _no_time_for_flow(solved: Solved) -> str | None:
-    """Why flow that can be computed is not, beside the scene's own finite elements: by the laws of
-    cost, the levels that it takes and theirs exceed the budget; None: they do not."""
-    problem, patches = solved.problem, solved.runs["half_plane"].levels[0].patches
-    if why_not(FLOW, problem) or time_with_flow(problem, solved.plan, patches) <= problem.time:
-        return None
-    return f"it takes {with_unit(flow_seconds(problem, patches), 's', 2)} more (budget.time)"
 
 
 def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:

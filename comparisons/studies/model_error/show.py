@@ -114,9 +114,7 @@ def model_error_rows(run: Run, judged: bool = False) -> list[TableRow]:
         pair = whole + error.scale * error.value, whole
         scale = scale_of(pair, QUANTITIES[error.quantity].unit)
         shown = scale.text(whole), size, percent(error.numerical)
-        shown = (
-            (UNKNOWN,) * 3 if leaves_flow_out(run, error) else shown
-        )  # without flow that matters
+        shown = (UNKNOWN,) * 3 if leaves_flow_out(run, error) else shown
         return scale.text(pair[0]), *shown, tolerance, *said
 
     return table_rows(errors, [name for name in QUANTITIES if name in names], cells)

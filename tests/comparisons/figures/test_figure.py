@@ -57,10 +57,8 @@ def test_two_sources_agree_and_what_is_judged_by_itself_holds(against, words):
 
 
 def test_what_has_no_bounds_is_not_judged():
+    """And bounded, but without a stated uncertainty, it is inconclusive."""
     assert replace(judged(), bounds=None).verdict is None
-
-
-def test_a_bounded_figure_without_a_stated_uncertainty_is_inconclusive():
     assert replace(judged(), uncertainty=None).verdict == "inconclusive"
 
 

@@ -45,6 +45,8 @@ def test_a_figure_may_move_by_what_it_states_itself():
     assert (row.name, inside.beyond) == (NAME, ())
     assert (row.change, row.stated) == pytest.approx((0.9e-4, 1e-4 + 1e-9))
     assert moved(PEAK, replace(PEAK, value=2e9 * (1.0 + 1.1e-4))).beyond[0].name == NAME
+    rounded = moved(PEAK, replace(PEAK, value=2e9 * (1.0 + 1e-12)))
+    assert (rounded.moved, rounded.rounding) == ((), 1)  # which is counted apart
 
 
 def test_a_difference_moves_by_its_own_uncertainty():
@@ -57,11 +59,6 @@ def test_of_an_uncertainty_that_is_unknown_the_known_parts_count():
     figure = replace(PEAK, uncertainty=numerical(1e-9, float("inf"), 1e-3))
     (row,) = moved(figure, replace(figure, value=2e9 * (1.0 + 0.9e-3))).moved
     assert not row.beyond and row.stated == pytest.approx(1e-3 + 1e-9)
-
-
-def test_rounding_is_counted_apart():
-    change = moved(PEAK, replace(PEAK, value=2e9 * (1.0 + 1e-12)))
-    assert (change.moved, change.rounding) == ((), 1)
 
 
 def test_what_states_nothing_may_not_move():
