@@ -116,7 +116,10 @@ def rough_scene(name: str, contact: ManufacturedContact, elements: float) -> Exa
         "txz_max_abs": extremes["txz"].value,
     }
     name += f", {elements:g} elements"
-    solved = contact.pressure, ("finite_element",), trace_of(contact)
+    x = np.linspace(-1.0, 1.0, SAMPLES) * (1.0 + BEYOND) * REACH  # 0 in the middle
+    roughness = Profile(x, 0.5 * x**2 / roller_radius(contact) - contact.gap(x))
+    trace = KnownTrace(MeasuredProfile(roughness, "text", None, 0, 0), None)
+    solved = contact.pressure, ("finite_element",), trace
     return ExactScene(name, SOURCE, "rough", tables, exact, *solved)
 
 
@@ -143,13 +146,6 @@ def roller_radius(contact: ManufacturedContact) -> float:
     """R [m] of a roller whose smooth contact would be as wide as the rough one under its load."""
     half_width = 0.5 * np.ptp(contact.ends)
     return float(0.25 * np.pi * contact.modulus * half_width**2 / contact.load)
-
-
-def trace_of(contact: ManufacturedContact) -> KnownTrace:
-    """The roughness under that roller, x = 0 in the middle."""
-    x = np.linspace(-1.0, 1.0, SAMPLES) * (1.0 + BEYOND) * REACH
-    height = 0.5 * x**2 / roller_radius(contact) - contact.gap(x)
-    return KnownTrace(MeasuredProfile(Profile(x, height), "text", None, 0, 0), None)
 
 
 def _no_error(scene: ExactScene, problem: Problem) -> Mapping[str, float]:

@@ -31,8 +31,8 @@ WAVES = {
 }  # fmt: skip
 
 
-def request(over, tables=WAVES):
-    return sweep_request(scene_of(tables), over, ("half_plane",))
+def request(over):
+    return sweep_request(scene_of(WAVES), over, ("half_plane",))
 
 
 def values_of(swept, study, quantity):
@@ -285,9 +285,8 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
     ],
 )
 def test_wrong_sweeps_are_one_line(over, said):
-    asked = [over] if isinstance(over, str) else over
     with pytest.raises(InputError) as refused:
-        request(asked, WAVES | {"title": "Waves"})
+        request([over] if isinstance(over, str) else over)
     assert said in str(refused.value) and "\n" not in str(refused.value)
 
 
