@@ -11,7 +11,6 @@ from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.forecast import forecast
-from comparisons.models.problem import Problem
 from comparisons.studies import contact
 from comparisons.studies.model_error.catalogue import with_effects
 from comparisons.studies.study import MODEL_ERROR, Solved, Study
@@ -54,12 +53,22 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     if not problem.scene.periodic:
         smooth |= {"tau1_max": hertz.tau1_max, "tau1_max_depth": hertz.tau1_max_depth}
     figures = figures_of(NAME, HERTZ, smooth, unsure)
-    figures += figures_of(NAME, SCENE, _groups(problem), unsure)
+    scene, half_width, info = problem.scene, hertz.half_width, problem.surface.info
+    body, roughness = scene.body, info and info.roughness
+    groups = {
+        "a_over_thickness": body.thickness and half_width / body.thickness,
+        "a_over_radius": None if scene.periodic else half_width / scene.roller.radius,
+        "a_over_width": body.width and half_width / body.width,
+        "rms_slope": None if roughness is None else roughness.rms_slope,
+        "max_slope": None if roughness is None else roughness.max_slope,
+        "friction_dundurs": max(scene.load.friction) * problem.dundurs_beta,
+    }
+    figures += figures_of(NAME, SCENE, groups, unsure)
     if (hardness := problem.scene.body.hardness) is not None:
         peaks = [f for f in known if f.quantity == "peak_pressure"]
         over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / hardness}
         figures += figures_of(NAME, SCENE, over, _largest(peaks))
-    if (info := problem.surface.info) is not None:  # as pressed, and by the standard
+    if info is not None:  # as pressed, and by the standard
         filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
         figures += figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
         if info.standard is not None:
@@ -74,19 +83,6 @@ def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
     """The largest uncertainty of any of these."""
     worst = max((f for f in figures if f.levels), key=lambda f: f.numerical)
     return Uncertainty(worst.uncertainty.parts)
-
-
-def _groups(problem: Problem) -> dict[str, float | None]:
-    scene, info, half_width = problem.scene, problem.surface.info, problem.hertz.half_width
-    body, roughness = scene.body, info and info.roughness
-    return {
-        "a_over_thickness": body.thickness and half_width / body.thickness,
-        "a_over_radius": None if scene.periodic else half_width / scene.roller.radius,
-        "a_over_width": body.width and half_width / body.width,
-        "rms_slope": None if roughness is None else roughness.rms_slope,
-        "max_slope": None if roughness is None else roughness.max_slope,
-        "friction_dundurs": max(scene.load.friction) * problem.dundurs_beta,
-    }
 
 
 def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statement]:

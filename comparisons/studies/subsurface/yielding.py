@@ -296,14 +296,12 @@ def flows_at_such(scene: Scene, flow: FlowAssessment) -> str:
     for want of a yield stress, by what its solid typically bears; or because elastic bodies are the
     question. A clause, or nothing."""
     shear, typical = with_unit(flow.worst.tau1, "Pa", 2), typical_shears(scene.body)
+    where = ""
     if flow.ratio is None and typical and flow.least_shear > BOTH_CRITERIA * typical[1]:
-        return f"it flows at such stresses: {flow_of(scene.body, *typical)}, the largest is {shear}"
-    if scene.asks_elastic and flow.is_certain:
-        least = with_unit(flow.yield_in_shear, "Pa", 2)
-        return (
-            f"it flows at such stresses: beyond a shear of Y/√3 = {least}, the largest is {shear}"
-        )
-    return ""
+        where = flow_of(scene.body, *typical)
+    elif scene.asks_elastic and flow.is_certain:
+        where = f"beyond a shear of Y/√3 = {with_unit(flow.yield_in_shear, 'Pa', 2)}"
+    return f"it flows at such stresses: {where}, the largest is {shear}" if where else ""
 
 
 def flow_sentence(run: Run) -> str:
