@@ -4,7 +4,7 @@ Both models are refined until the model error of the half-plane is well above it
 uncertainty, never by the clock, so that a point has the same answer wherever it is computed. The
 uncertainty is that of a run's comparison."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
@@ -34,7 +34,6 @@ DECIMALS = 9  # of relative differences: the digits that rounding does not reach
 FIGURES = 10  # significant, of the models' own values
 
 Runs = dict[str, ModelRun]
-Values = Mapping[str, Mapping[str, float]]  # [SI] by model, then by quantity
 
 
 def solve_point(point: Point) -> dict:
@@ -51,7 +50,13 @@ def solve_point(point: Point) -> dict:
         if not is_open(errors[point.asked]):
             break
     values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
-    finest = runs["finite_element"].finest
+    finest, quantities = runs["finite_element"].finest, {}
+    for name, error in errors.items():
+        unsure, of_models = error.numerical, {m: _significant(values[m][name]) for m in MODELS}
+        quantities[name] = of_models | {
+            "difference": round(error.value, DECIMALS),
+            "uncertainty": round(unsure, DECIMALS) if np.isfinite(unsure) else None,  # not known
+        }
     return {
         "status": SOLVED,
         "half_width": _significant(problem.hertz.half_width),
@@ -59,22 +64,13 @@ def solve_point(point: Point) -> dict:
         "friction": _significant(friction),
         "levels": len(runs["finite_element"].levels),
         "unknowns": finest.unknowns,
-        "quantities": {name: _entry(error, values) for name, error in errors.items()},
+        "quantities": quantities,
     }
 
 
 def is_open(error: Figure) -> bool:
     """Whether another level is worth its time: the uncertainty would show in a map."""
     return error.numerical > SHARE * max(abs(error.value), TOLERANCES[0])
-
-
-def _entry(error: Figure, values: Values) -> dict[str, float | None]:
-    """Values by model, and the difference; an uncertainty that is not known is None."""
-    known = np.isfinite(error.numerical)
-    return {model: _significant(values[model][error.quantity]) for model in MODELS} | {
-        "difference": round(error.value, DECIMALS),
-        "uncertainty": round(error.numerical, DECIMALS) if known else None,
-    }
 
 
 def _significant(value: float) -> float:
