@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from heat_loads import flux_load, steady
 from moving_band import band_maximum, band_mean
-from scenes import BOTH_CONDUCT, STEEL, half_plane_at, problem
+from scenes import BOTH_CONDUCT, SMOOTH, half_plane_at, problem
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
@@ -22,9 +22,7 @@ from meshes.thermal_layer import thermal_spec
 INSULATOR = {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # of a diffusivity like steel's
 INSULATING_BODY = {name.replace("roller", "body"): value for name, value in INSULATOR.items()}
 LAYER = {"conductivity": 2.0, "density": 5000.0, "specific_heat": 500.0}
-SCENE = {
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
+SCENE = SMOOTH | {
     "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
     "heat": {"speed": 2.0, "slide_to_roll": 0.5, **BOTH_CONDUCT},
 }

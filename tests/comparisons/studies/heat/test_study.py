@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import BOTH_CONDUCT, GROUND, STEEL, changed, refound, resolved, run_of
+from scenes import BOTH_CONDUCT, GROUND, QUICK, changed, refound, resolved, run_of
 
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
@@ -106,13 +106,9 @@ def test_one_model_alone():
     assert value(outcome, "peclet_number", "body") == 0.0
 
 
-STRESSED = {
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
+STRESSED = QUICK | {
     "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
     "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **BOTH_CONDUCT},
-    "stress": {"points": [120, 40]},
-    "budget": {"effects": False},
 }
 
 
