@@ -1,12 +1,13 @@
 """Blocks that meshes start from, by name; Hooke's law in plane strain; bodies moved, or as one."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from analytic.material import Material
-from meshes.block import BlockMesh, BlockSpec
+from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
 
 BLOCK = BlockSpec(20.0, 40.0, np.array([[-1.5, 1.5]]), 0.05)
 PATCHES = np.array([[-1.5, -1.0], [0.3, 1.1]])
@@ -102,3 +103,32 @@ class SumOfBodies:
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         return sum(body.apply(pressure) for body in self.bodies)
+
+
+def graded(extent: float, first: float, ratio: float) -> np.ndarray:
+    """0 to `extent` in steps that start near `first` and grow by `ratio`."""
+    count = int(np.ceil(np.log1p(extent * (ratio - 1.0) / first) / np.log(ratio)))
+    steps = ratio ** np.arange(count)
+    return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * extent
+
+
+def structured_block(
+    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
+) -> BlockMesh:
+    """A structured block with its top at -height(x) and, by `seed`, random inner vertices.
+
+    The shift decreases linearly to the bottom; inner vertices move by up to a fifth of a cell,
+    against symmetries that hide a mistake.
+    """
+    mesh = structured(x, z)
+    if seed is not None:
+        vertices = mesh.points[: len(x) * len(z)].reshape(len(x), len(z), 2)
+        random = np.random.default_rng(seed)
+        for axis, cell in ((0, np.gradient(x)[1:-1, None]), (1, np.gradient(z)[None, 1:-1])):
+            inner = vertices[1:-1, 1:-1, axis]
+            inner += 0.2 * cell * random.uniform(-1, 1, inner.shape)
+        points, _ = add_midpoints(vertices.reshape(-1, 2), mesh.triangles[:, :3])
+        mesh = replace(mesh, points=points)
+    if height is not None:
+        mesh.shift[:, 1] = -height(mesh.points[:, 0]) * (1.0 - mesh.points[:, 1] / z[-1])
+    return mesh

@@ -105,3 +105,23 @@ def press_linearly(
     state = ContactState((moved,), start, approach=0.0)
     weights = 0.5 * (hats[2:] - hats[:-2])
     return solve_nonlinear_contact(bodies, gap, weights, state, load).state
+
+
+def dense_contact(matrix: np.ndarray, gap: np.ndarray, weights: np.ndarray, load: float):
+    """Pressure and approach of matrix p + gap - d weights >= 0, p >= 0, complementary, w'p = load.
+
+    Plain active set on a dense matrix, written apart from every solver of the project.
+    """
+    inside = gap < 0.5 * gap.max()
+    for _ in range(100):
+        w = weights[inside]
+        system = np.block([[matrix[np.ix_(inside, inside)], -w[:, None]], [w, np.zeros((1, 1))]])
+        *pressure, approach = np.linalg.solve(system, np.append(-gap[inside], load))
+        whole = np.zeros(len(gap))
+        whole[inside] = pressure
+        opening = matrix @ whole + gap - approach * weights
+        wanted = np.where(inside, whole > 0.0, opening < 0.0)
+        if np.array_equal(wanted, inside):
+            return whole, approach
+        inside = wanted
+    raise AssertionError("the active set did not settle")

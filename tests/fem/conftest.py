@@ -1,58 +1,23 @@
 """Bodies to test on: structured blocks with exact control of the nodes; a pressed half-plane."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import graded, hooke, structured_block
 from nodal_stress import nodal_stress
+from pressed_bodies import dense_contact
 from scenes import hat_nodes
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
 from fem.body.elasticity import ElasticBody, Support, elastic_body
-from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.stress.stress import NodalStress, evaluate
-from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
+from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
-
-
-def graded_grid(extent: float, first: float, ratio: float) -> np.ndarray:
-    """0 to `extent` in steps that start near `first` and grow by `ratio`."""
-    count = int(np.ceil(np.log1p(extent * (ratio - 1.0) / first) / np.log(ratio)))
-    steps = ratio ** np.arange(count)
-    return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * extent
-
-
-def moved_block(
-    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
-) -> BlockMesh:
-    """A structured block with its top at -height(x) and, by `seed`, random inner vertices.
-
-    The shift decreases linearly to the bottom; inner vertices move by up to a fifth of a cell,
-    against symmetries that hide a mistake.
-    """
-    mesh = structured(x, z)
-    if seed is not None:
-        vertices = mesh.points[: len(x) * len(z)].reshape(len(x), len(z), 2)
-        random = np.random.default_rng(seed)
-        for axis, cell in ((0, np.gradient(x)[1:-1, None]), (1, np.gradient(z)[None, 1:-1])):
-            inner = vertices[1:-1, 1:-1, axis]
-            inner += 0.2 * cell * random.uniform(-1, 1, inner.shape)
-        points, _ = add_midpoints(vertices.reshape(-1, 2), mesh.triangles[:, :3])
-        mesh = replace(mesh, points=points)
-    if height is not None:
-        mesh.shift[:, 1] = -height(mesh.points[:, 0]) * (1.0 - mesh.points[:, 1] / z[-1])
-    return mesh
-
-
-@pytest.fixture(scope="session")
-def structured_block() -> Callable[..., BlockMesh]:
-    return moved_block
 
 
 @pytest.fixture(scope="module", params=[1, 2, 3])
@@ -62,21 +27,11 @@ def degree(request) -> int:
 
 
 @pytest.fixture(scope="session")
-def graded() -> Callable[..., np.ndarray]:
-    return graded_grid
-
-
-@pytest.fixture(scope="session")
 def small_block() -> BlockMesh:
     """A block of vertical lines 12 half-widths wide and 6 deep: 2200 unknowns."""
-    beyond = graded_grid(4.0, 0.3, 1.4)
+    beyond = graded(4.0, 0.3, 1.4)
     x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
-    return moved_block(x, graded_grid(6.0, 0.14, 1.2))
-
-
-@pytest.fixture(scope="session")
-def exact_forces() -> Callable[..., np.ndarray]:
-    return forces_of
+    return structured_block(x, graded(6.0, 0.14, 1.2))
 
 
 class Manufactured:
@@ -106,26 +61,6 @@ class Manufactured:
 @pytest.fixture(scope="session")
 def manufactured() -> type[Manufactured]:
     return Manufactured
-
-
-def dense_contact(matrix: np.ndarray, gap: np.ndarray, weights: np.ndarray, load: float):
-    """Pressure and approach of matrix p + gap - d weights >= 0, p >= 0, complementary, w'p = load.
-
-    Plain active set on a dense matrix, written apart from every solver of the project.
-    """
-    inside = gap < 0.5 * gap.max()
-    for _ in range(100):
-        w = weights[inside]
-        system = np.block([[matrix[np.ix_(inside, inside)], -w[:, None]], [w, np.zeros((1, 1))]])
-        *pressure, approach = np.linalg.solve(system, np.append(-gap[inside], load))
-        whole = np.zeros(len(gap))
-        whole[inside] = pressure
-        opening = matrix @ whole + gap - approach * weights
-        wanted = np.where(inside, whole > 0.0, opening < 0.0)
-        if np.array_equal(wanted, inside):
-            return whole, approach
-        inside = wanted
-    raise AssertionError("the active set did not settle")
 
 
 class Pressed:
@@ -181,11 +116,6 @@ def pressed() -> Callable[..., Pressed]:
     return cache(Pressed)
 
 
-@pytest.fixture(scope="session")
-def dense() -> Callable[..., tuple[np.ndarray, float]]:
-    return dense_contact
-
-
 class HatGrid:
     """21 hats from -1.3 to 1.3, blocks that meet there, a smooth gap and a rough one [m^2]."""
 
@@ -198,9 +128,9 @@ class HatGrid:
     rough = smooth + pitch * (0.05 * np.cos(17 * x) + 0.03 * np.cos(7 * x + 1) + 0.08)
 
     def body(self, modulus=1.0, poisson=0.3, height=None, support=None) -> ElasticBody:
-        outer = graded_grid(10.0, 0.1, 1.6)
+        outer = graded(10.0, 0.1, 1.6)
         x = np.concatenate([-1.5 - outer[:0:-1], np.linspace(-1.5, 1.5, 31), 1.5 + outer[1:]])
-        mesh = moved_block(x, outer, height)
+        mesh = structured_block(x, outer, height)
         return elastic_body(mesh, Material(modulus, poisson), support or Support())
 
     def compliance(self, body: ElasticBody) -> FiniteElementCompliance:

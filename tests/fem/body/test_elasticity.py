@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import hooke, structured_block
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from fem.solver.mumps import FemError
 from meshes.block import BlockSpec
@@ -21,7 +22,7 @@ def wavy(x):
 
 
 @pytest.fixture(scope="module")
-def small(structured_block):
+def small():
     def make(height=None, cells=6):
         return structured_block(
             np.linspace(-1, 1, cells + 1), np.linspace(0, 1, cells // 2 + 1), height, 7
@@ -45,23 +46,19 @@ def small(structured_block):
     ],
     ids=["shear", "stretch", "confined"],
 )
-def test_constant_strain_is_reproduced_exactly(
-    small, exact_forces, height, degree, support, strain
-):
+def test_constant_strain_is_reproduced_exactly(small, height, degree, support, strain):
     mesh = small(height)
     body = elastic_body(mesh, MATERIAL, support, degree=degree)
     exx, ezz, gxz = strain
     x, z = body.nodes.T
     exact = np.column_stack([exx * x + gxz * (z - 1.0), ezz * (z - 1.0)])
     sx, sz, txz = hooke(MATERIAL, exx, ezz, gxz)
-    load = exact_forces(mesh, lambda x, z: (sx + 0 * x, sz, txz), degree=degree)
+    load = forces_of(mesh, lambda x, z: (sx + 0 * x, sz, txz), degree=degree)
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 0.1, 1e6])
-def test_a_coating_under_uniform_traction_is_reproduced_exactly(
-    structured_block, exact_forces, degree, ratio
-):
+def test_a_coating_under_uniform_traction_is_reproduced_exactly(degree, ratio):
     """Uniform pressure and shear: each layer strains by its own compliance; sx jumps."""
     line = np.linspace(-1, 1, 7)
     mesh = structured_block(line, np.array([0.0, 0.1, 0.25, 0.5, 1.0]))
@@ -80,7 +77,7 @@ def test_a_coating_under_uniform_traction_is_reproduced_exactly(
         nu = np.where(z < 0.25, coat.poissons_ratio, MATERIAL.poissons_ratio)
         return -nu / (1.0 - nu), -1.0, 0.4
 
-    load = exact_forces(mesh, stress, degree=degree)
+    load = forces_of(mesh, stress, degree=degree)
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
 
@@ -91,7 +88,7 @@ def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
         Coating(MATERIAL, 0.0)
 
 
-def test_a_coating_of_the_body_s_material_is_none(structured_block, degree):
+def test_a_coating_of_the_body_s_material_is_none(degree):
     line = np.linspace(-1, 1, 7)
     mesh = structured_block(line, line[3:], wavy)
     plain = elastic_body(mesh, MATERIAL, Support(), degree=degree)
@@ -146,7 +143,7 @@ def test_points_keep_their_own_numbers(small, degree):
     np.testing.assert_allclose(at_points, body.at_points(moved)[order], atol=1e-13)
 
 
-def test_displacement_scales_with_load_and_inversely_with_the_moduli(structured_block, degree):
+def test_displacement_scales_with_load_and_inversely_with_the_moduli(degree):
     line = np.linspace(-1, 1, 7)
     mesh = structured_block(line, line[3:])
 
@@ -160,7 +157,7 @@ def test_displacement_scales_with_load_and_inversely_with_the_moduli(structured_
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e6])
-def test_displacement_does_not_depend_on_the_unit_of_length(structured_block, degree, size):
+def test_displacement_does_not_depend_on_the_unit_of_length(degree, size):
     line = np.linspace(-1, 1, 7)
 
     def body(size):
@@ -187,7 +184,7 @@ def test_supports_hold_what_they_say(small, degree):
             assert (sides != "fixed") == (np.abs(moved[flank, 1]).min() > 0.0)
 
 
-def test_a_body_held_within_is_the_smaller_body(structured_block):
+def test_a_body_held_within_is_the_smaller_body():
     """The middle of a block, held at half its extent, is a block of half its size."""
     line = np.linspace(-2.0, 2.0, 17)
     large = structured_block(line, np.linspace(0.0, 2.0, 9))
@@ -223,7 +220,7 @@ def test_supports_without_sense_are_refused(held):
         Support(*held)
 
 
-def test_roughness_that_inverts_elements_is_refused(structured_block):
+def test_roughness_that_inverts_elements_is_refused():
     line = np.linspace(-1, 1, 9)
     mesh = structured_block(line, np.linspace(0, 0.1, 3), lambda x: -0.2 * np.cos(9 * x))
     with pytest.raises(FemError, match=r"\d+ elements of the mesh are inverted"):

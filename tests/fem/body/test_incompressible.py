@@ -9,6 +9,7 @@ sides: what `fem.body.elasticity` says about the choice of elements rests on the
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 from scenes import hat_nodes
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
@@ -70,7 +71,7 @@ def shifts(mesh, material: Material, hats: np.ndarray, pressure: np.ndarray) -> 
     return [*result, reference]
 
 
-def thin_layer(structured_block, graded, elements: int):
+def thin_layer(elements: int):
     """Thickness 1, hats on -4 to 4; square cells there, `elements` across the thickness."""
     outer = 5.0 + graded(12.0, 1.0 / elements, 1.3)
     middle = np.linspace(-5.0, 5.0, 10 * elements + 1)
@@ -89,12 +90,12 @@ def thin_layer(structured_block, graded, elements: int):
         (8, 0.499999, [1.0, 1.8e-3, 2.9e-7, 3.7e-6]),
     ],
 )
-def test_a_thin_bonded_layer(structured_block, graded, elements, nu, expected):
+def test_a_thin_bonded_layer(elements, nu, expected):
     material, count = Material(1.0, nu), 63
     hats = hat_nodes(-3.875, 0.125, count)
     pressure = (1.0 - (hats[1:-1] / 4.0) ** 2) ** 2
     exact = LayeredSurface(count, 0.125, LayeredBody(material, 1.0, "bonded")).apply(pressure)
-    mesh = thin_layer(structured_block, graded, elements)
+    mesh = thin_layer(elements)
     work = [pressure @ moved for moved in shifts(mesh, material, hats, pressure)]
     missing = 1.0 - np.array(work) / (pressure @ exact)
     assert np.all(missing < 2.0 * np.array(expected)), missing
@@ -106,7 +107,7 @@ def test_a_thin_bonded_layer(structured_block, graded, elements, nu, expected):
     ("nu", "expected"),
     [(0.3, [4.1e-2, 6.8e-4, 2.0e-4, 5.3e-4]), (0.499999, [9.9e-1, 6.2e-3, 5.2e-4, 2.2e-4])],
 )
-def test_a_large_block(structured_block, graded, nu, expected):
+def test_a_large_block(nu, expected):
     material, count, edge = Material(1.0, nu), 31, 1 / 16
     hats = hat_nodes(-15 / 16, edge, count)
     pressure = np.sqrt(1.0 - hats[1:-1] ** 2)

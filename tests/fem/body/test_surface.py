@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from blocks import structured_block
 from numpy.polynomial import Polynomial
 from scenes import hat_nodes
 from scipy.interpolate import lagrange
@@ -16,7 +17,7 @@ LINE = np.array([-2.0, -1.1, -0.4, -0.3, 0.1, 0.15, 0.9, 2.0])
 
 
 @pytest.fixture(scope="module")
-def mesh(structured_block):
+def mesh():
     return structured_block(LINE, np.linspace(0, 1, 4), seed=1)
 
 
@@ -41,7 +42,7 @@ def test_surface_is_sorted_and_has_degree_minus_one_inner_nodes_to_an_edge(mesh,
     assert not nodes_of(mesh, degree).real[surface.point, 1].any()
 
 
-def test_sides_hold_their_points_and_corners_belong_to_two(structured_block):
+def test_sides_hold_their_points_and_corners_belong_to_two():
     mesh = structured_block(np.linspace(-1, 1, 5), np.linspace(0, 3, 4), lambda x: 0.1 + 0 * x)
     sides = boundary_points(mesh.points, mesh.spec)
     for side, axis, value in (("top", 1, 0), ("bottom", 1, 3), ("left", 0, -1), ("right", 0, 1)):
@@ -50,7 +51,7 @@ def test_sides_hold_their_points_and_corners_belong_to_two(structured_block):
     assert len(np.intersect1d(sides.top, sides.left)) == 1
 
 
-def test_a_top_that_is_not_of_edges_and_their_middles_is_refused(structured_block):
+def test_a_top_that_is_not_of_edges_and_their_middles_is_refused():
     mesh = structured_block(np.linspace(-1, 1, 5), np.linspace(0, 1, 3))
     nodes = nodes_of(mesh, 2)
     third = surface_of(mesh, nodes).point[3]

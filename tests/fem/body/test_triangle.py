@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 
 from fem.body.triangle import Locator, collapsed_gauss, shapes
 from meshes.block import real_points
@@ -13,7 +14,7 @@ def wavy(x):
 
 
 @pytest.fixture(scope="module", params=["straight", "curved"])
-def case(request, structured_block, graded):
+def case(request):
     outer = graded(2.0, 0.05, 1.3)
     x = np.concatenate([-1 - outer[:0:-1], np.linspace(-1, 1, 41), 1 + outer[1:]])
     curved = request.param == "curved"
@@ -40,7 +41,7 @@ def test_points_outside_belong_to_no_element(case):
     np.testing.assert_array_equal(locator(where)[0], -1)
 
 
-def test_points_just_below_and_above_a_rough_surface(structured_block):
+def test_points_just_below_and_above_a_rough_surface():
     line = np.linspace(-1, 1, 41)
     mesh = structured_block(line, np.linspace(0, 1, 11), wavy, seed=2)
     assert np.abs(np.gradient(wavy(line), line)).max() > 0.9
@@ -50,7 +51,7 @@ def test_points_just_below_and_above_a_rough_surface(structured_block):
     assert np.all(locator(np.column_stack([x, -wavy(x) - 1e-3]))[0] == -1)
 
 
-def test_a_block_bent_along_x_too(structured_block):
+def test_a_block_bent_along_x_too():
     """A sector of a ring: points just inside and outside of its curved sides and its top."""
     mesh = structured_block(np.linspace(-1, 1, 33), np.linspace(0, 1, 17), seed=6)
     angle, radius = mesh.points[:, 0], 2.0 - mesh.points[:, 1]

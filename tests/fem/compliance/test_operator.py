@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 from scenes import hat_nodes
 
 from analytic.material import Material
@@ -15,15 +16,15 @@ PITCH, COUNT = 0.1, 21
 HATS = hat_nodes(-1.0, PITCH, COUNT)
 
 
-def block(structured_block, graded, edge):
+def block(edge):
     outer, middle = graded(298.5, 1.5 * edge, 1.25), np.linspace(-1.5, 1.5, round(3.0 / edge) + 1)
     x = np.concatenate([-1.5 - outer[:0:-1], middle, 1.5 + outer[1:]])
     return structured_block(x, graded(300.0, edge, 1.25))
 
 
 @pytest.fixture(scope="module")
-def fine(structured_block, graded):
-    body = elastic_body(block(structured_block, graded, 0.05), MATERIAL, Support())
+def fine():
+    body = elastic_body(block(0.05), MATERIAL, Support())
     return FiniteElementCompliance(body, HATS)
 
 
@@ -52,11 +53,11 @@ def error_of(matrix, material):
     return np.abs(without_datum(matrix) - exact).max() / np.abs(exact).max()
 
 
-def test_columns_are_the_half_planes_and_the_mesh_error_is_of_order_three(structured_block, graded):
+def test_columns_are_the_half_planes_and_the_mesh_error_is_of_order_three():
     """The strain energy of a kinked (hat) pressure converges with the cube of the edge length."""
     errors = []
     for edge in (0.05, 0.025, 0.0125):
-        body = elastic_body(block(structured_block, graded, edge), MATERIAL, Support())
+        body = elastic_body(block(edge), MATERIAL, Support())
         errors.append(error_of(FiniteElementCompliance(body, HATS).matrix(), MATERIAL))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert errors[0] < 1.5e-2

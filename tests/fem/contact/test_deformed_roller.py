@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from blocks import structured_block
 from pressed_bodies import neo_hookean_energy, press_finitely
 from scenes import hat_nodes
 
@@ -32,7 +33,7 @@ PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
 SIZE = 60.0  # of a block that is pressed
 
 
-def blocks(structured_block, cells=12):
+def blocks(cells=12):
     """A rough body and a roller whose edges end elsewhere."""
     rough = structured_block(
         np.linspace(-1.5, 1.5, cells + 1), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x)
@@ -51,12 +52,12 @@ def some(bodies, size):
 
 class TestTerms:
     @pytest.mark.parametrize("friction", [0.0, 0.3])
-    def test_derivatives(self, structured_block, friction):
+    def test_derivatives(self, friction):
         """Up to the jumps of slope that are left out: of second order in the edges' length, the
         tangent's of first."""
         off = []
         for cells in (24, 48, 96):
-            bodies = blocks(structured_block, cells)
+            bodies = blocks(cells)
             contact = PairContact(bodies[0], HATS, bodies[1], friction)
             at, step, h = some(bodies, 0.05), some(bodies, 1.0) * [0.7, -1.0], 1e-6
             terms = contact.at(at, PRESSURE)
@@ -81,10 +82,10 @@ class TestTerms:
             assert abs(stiffness - stiffness.T).max() < 1e-13 * abs(stiffness).max()
 
     @pytest.mark.parametrize("friction", [0.0, 0.3])
-    def test_forces_and_moments_are_in_balance(self, structured_block, friction):
+    def test_forces_and_moments_are_in_balance(self, friction):
         """What pushes the rough body pushes the roller back, at the same places: the moment is
         that of the gap between them. The roller's frame is mirrored."""
-        bodies = blocks(structured_block)
+        bodies = blocks()
         at = some(bodies, 0.05)
         place = np.vstack([body.nodes for body in bodies]) + at
         terms = PairContact(bodies[0], HATS, bodies[1], friction).at(at, PRESSURE)
@@ -98,7 +99,7 @@ class TestTerms:
         upright = (place[:, 0] * force[:, 1]).sum()
         assert abs(upright) < 1e-12 * np.abs(place[:, 0] * force[:, 1]).sum()
 
-    def test_constant_pressure_between_conforming_bodies_is_exact(self, structured_block):
+    def test_constant_pressure_between_conforming_bodies_is_exact(self):
         """The roller's nodal forces are its own hats', though its edges end elsewhere."""
         lines = np.linspace(-1.5, 1.5, 13), np.linspace(-1.6, 1.6, 15)
         meshes = [structured_block(line, np.linspace(0.0, 1.0, 4)) for line in lines]
@@ -116,8 +117,8 @@ class TestTerms:
         again = PairContact(bodies[0], HATS, bodies[1]).at(moved, PRESSURE)
         np.testing.assert_allclose(again.force.toarray(), forces, atol=1e-15)
 
-    def test_a_surface_that_folds_or_ends_is_refused(self, structured_block):
-        _, roller = blocks(structured_block)
+    def test_a_surface_that_folds_or_ends_is_refused(self):
+        _, roller = blocks()
         with pytest.raises(FemError, match="folds"):
             DeformedSurface(roller, -2.0 * roller.nodes)
         with pytest.raises(FemError, match="beyond the end"):

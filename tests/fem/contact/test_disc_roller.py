@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import SumOfBodies
+from blocks import SumOfBodies, structured_block
 from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
@@ -20,6 +20,7 @@ from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -32,7 +33,7 @@ REFINED = np.array([[-1.2, 1.2]])  # in half-widths
 
 
 class TestSector:
-    def test_compliance_tends_to_the_flat_block_s_with_the_curvature(self, structured_block):
+    def test_compliance_tends_to_the_flat_block_s_with_the_curvature(self):
         """The same block, 2 wide and 1 deep, bent less and less: a difference of order 1 in 1/R."""
         flat = structured_block(np.linspace(-1, 1, 41), np.linspace(0, 1, 21), seed=4)
         hats = hat_nodes(-0.5, 0.05, 21)
@@ -49,9 +50,7 @@ class TestSector:
         assert 0.05 < radii[-1] * difference[-1] / np.linalg.norm(straight) < 5.0
 
     @pytest.mark.parametrize("radius", [1.5, 10.0])
-    def test_displacement_of_a_bent_body_is_of_order_three(
-        self, structured_block, exact_forces, manufactured, radius
-    ):
+    def test_displacement_of_a_bent_body_is_of_order_three(self, manufactured, radius):
         """A smooth displacement that vanishes on the inner arc, from its forces."""
 
         class Held(manufactured):
@@ -64,7 +63,7 @@ class TestSector:
             line = np.linspace(-1, 1, 2 * cells + 1)
             mesh = bent(structured_block(line, line[cells:], seed=6), radius)
             body = elastic_body(mesh, MATERIAL, Support())
-            moved = body.solve(exact_forces(mesh, exact.stress, exact.body_force))
+            moved = body.solve(forces_of(mesh, exact.stress, exact.body_force))
             wanted = np.stack(exact.displacement(*body.points.T), axis=1)
             errors.append(np.sqrt(np.mean((moved - wanted) ** 2) / np.mean(wanted**2)))
         order = np.log2(np.divide(errors[:-1], errors[1:]))

@@ -4,6 +4,7 @@ project's own solver."""
 import numpy as np
 import pytest
 from nodal_stress import displacement_under
+from pressed_bodies import dense_contact
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
@@ -33,12 +34,10 @@ def solve(request, grid):
     return lambda *problem: request.param(grid, *problem)
 
 
-def test_pressure_and_approach_are_the_dense_ones(
-    grid, block, block_matrix, dense, gap_and_load, solve
-):
+def test_pressure_and_approach_are_the_dense_ones(grid, block, block_matrix, gap_and_load, solve):
     gap, load = gap_and_load
     contact = solve([block], gap, load)
-    pressure, approach = dense(block_matrix, gap, grid.weights, load)
+    pressure, approach = dense_contact(block_matrix, gap, grid.weights, load)
     np.testing.assert_allclose(contact.pressure, pressure, atol=1e-9 * pressure.max())
     assert contact.approach == pytest.approx(approach, rel=1e-9)
     assert contact.iterations <= 15
@@ -64,11 +63,11 @@ def test_pressure_is_capped_at_the_hardness(grid, block, block_matrix, solve):
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.5, 1e-6, 1e6])
-def test_an_elastic_roller_is_a_second_body(grid, block, block_matrix, dense, ratio, solve):
+def test_an_elastic_roller_is_a_second_body(grid, block, block_matrix, ratio, solve):
     roller = grid.body(ratio, 0.2, support=Support("bonded", "fixed"))
     load = 0.6 * min(1.0, ratio)
     contact = solve([block, roller], grid.rough, load)
-    pressure, _ = dense(
+    pressure, _ = dense_contact(
         block_matrix + grid.compliance(roller).matrix(), grid.rough, grid.weights, load
     )
     np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
@@ -94,7 +93,7 @@ def test_both_solvers_agree(grid, block, solve):
     assert ours.approach == pytest.approx(other.approach, rel=1e-6)
 
 
-def test_a_rough_body_with_tilted_pressure(grid, dense):
+def test_a_rough_body_with_tilted_pressure(grid):
     def height(x):
         return 0.02 * np.cos(5 * x) * np.exp(-((x / 2.0) ** 4))
 
@@ -107,16 +106,18 @@ def test_a_rough_body_with_tilted_pressure(grid, dense):
     units = np.eye(grid.count)
     moved = [displacement_under(body, grid.hats, unit, 0.0, direction) for unit in units]
     matrix = np.array([u[body.surface.point].ravel() @ b for u in moved])
-    pressure, _ = dense(matrix, grid.smooth, grid.weights, 0.6)
+    pressure, _ = dense_contact(matrix, grid.smooth, grid.weights, 0.6)
     np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
 
 
-def test_what_hats_do_to_held_components_is_nothing(grid, dense, solve):
+def test_what_hats_do_to_held_components_is_nothing(grid, solve):
     """The outer hats reach over points that the support holds."""
     body = grid.body(support=Support(within=(1.25, np.inf)))
     assert body.held[body.surface.point[np.abs(body.surface.x) < 1.3]].any()
     contact = solve([body], 0.002 * grid.smooth, 3.0)
-    pressure, _ = dense(grid.compliance(body).matrix(), 0.002 * grid.smooth, grid.weights, 3.0)
+    pressure, _ = dense_contact(
+        grid.compliance(body).matrix(), 0.002 * grid.smooth, grid.weights, 3.0
+    )
     np.testing.assert_allclose(contact.pressure, pressure, atol=1e-8 * pressure.max())
 
 

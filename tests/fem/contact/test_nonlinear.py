@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pressed_bodies import dense_contact
 
 from fem.contact.nonlinear import RESIDUAL, solve_nonlinear_contact, state_at_rest
 from fem.solver.mumps import FemError
@@ -17,12 +18,12 @@ def solve(grid):
 
 
 def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
-    grid, block, block_matrix, dense, gap_and_load, solve
+    grid, block, block_matrix, gap_and_load, solve
 ):
     gap, load = gap_and_load
     bodies = [grid.linear(block)]
     solution = solve(bodies, gap, load=load)
-    pressure, approach = dense(block_matrix, gap, grid.weights, load)
+    pressure, approach = dense_contact(block_matrix, gap, grid.weights, load)
     assert solution.state.load == load
     opening = (gap + block_matrix @ pressure) / grid.pitch - approach
     np.testing.assert_allclose(
@@ -42,15 +43,15 @@ def test_the_way_to_a_load_does_not_matter(grid, block, solve):
     np.testing.assert_allclose(on.state.pressure, back.state.pressure, atol=1e-9)
 
 
-def test_friction_is_coupled(grid, block, dense, solve):
+def test_friction_is_coupled(grid, block, solve):
     """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
     forces, friction = grid.compliance(block), 0.3
     columns = [forces.apply(unit, friction) for unit in np.eye(grid.count)]
     sliding = solve([grid.linear(block, friction)], grid.smooth, load=0.6)
     assert sliding.iterations <= 10
-    pressure, _ = dense(np.array(columns).T, grid.smooth, grid.weights, 0.6)
+    pressure, _ = dense_contact(np.array(columns).T, grid.smooth, grid.weights, 0.6)
     np.testing.assert_allclose(sliding.state.pressure, pressure, atol=1e-9 * pressure.max())
-    without, _ = dense(forces.matrix(), grid.smooth, grid.weights, 0.6)
+    without, _ = dense_contact(forces.matrix(), grid.smooth, grid.weights, 0.6)
     assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import moved
+from blocks import moved, structured_block
 from scenes import hat_nodes
 from scipy.integrate import trapezoid
 
@@ -16,7 +16,7 @@ HATS = hat_nodes(-0.8, 0.16, 11)
 
 
 @pytest.fixture(scope="module")
-def body(structured_block):
+def body():
     mesh = structured_block(
         np.linspace(-1.5, 1.5, 13), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x), seed=2
     )

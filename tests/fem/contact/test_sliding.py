@@ -9,7 +9,8 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
-from blocks import SumOfBodies
+from blocks import SumOfBodies, structured_block
+from pressed_bodies import dense_contact
 from scenes import hat_nodes, reference
 
 from analytic.contact.coupled import solve_coupled
@@ -196,7 +197,7 @@ def as_the_whole_matrix(compliance, model, gap, weights, constraints) -> Contact
 class TestRoughProfiles:
     @pytest.mark.parametrize("friction", [0.1, -0.3, 1.0])
     @pytest.mark.parametrize("seed", [1, 2, 3])
-    def test_few_steps_to_what_an_independent_solver_finds(self, dense, seed, friction):
+    def test_few_steps_to_what_an_independent_solver_finds(self, seed, friction):
         """nu = 0: mu beta of 0.05, 0.15 and 0.5, in as few steps as without friction."""
         grid, compliance = rough_surface()
         matrix = compliance.matrix(friction)
@@ -206,7 +207,7 @@ class TestRoughProfiles:
             Sliding(compliance, friction), model, gap, grid.weights, Constraints(load=LOAD)
         )
         assert solution.converged and solution.iterations["steps"] <= 7
-        pressure, approach = dense(matrix, gap, grid.weights, LOAD)
+        pressure, approach = dense_contact(matrix, gap, grid.weights, LOAD)
         assert solution.pressure == pytest.approx(pressure, abs=1e-5 * pressure.max())
         assert solution.approach == pytest.approx(approach, rel=1e-8)
         assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 1
@@ -219,7 +220,7 @@ class TestRoughProfiles:
 
 
 @pytest.mark.parametrize("base", ["bonded", "frictionless"])
-def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
+def test_a_layer_a_third_as_thick_as_the_contact(base):
     """Far from a half-plane: the iteration says whether it arrived, the whole matrix serves."""
     x = np.linspace(-4.0, 4.0, 161)
     mesh = structured_block(x, np.linspace(0.0, 0.3, 7))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import structured_block
 
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
@@ -16,7 +17,7 @@ WEIGHTS = np.full(16, HATS[1] - HATS[0])
 
 
 @pytest.fixture(scope="module")
-def compliance(structured_block):
+def compliance():
     mesh = structured_block(np.linspace(-2.0, 2.0, 21), np.linspace(0.0, 2.0, 9))
     return FiniteElementCompliance(elastic_body(mesh, Material(1.0, 0.3), Support()), HATS)
 

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from blocks import structured_block
 from heat_loads import flux_load, steady
 from moving_band import band_surface
 from scenes import reference
 
 from analytic.material import ThermalMaterial
 from fem.body.coating import Coating
+from fem.body.exact_load import forces_of
 from fem.body.surface import boundary_points
 from fem.body.triangle import collapsed_gauss, jacobians, shapes
 from fem.heat.body import thermal_body
@@ -45,7 +47,7 @@ class Wave:
         return (self.c**2 - self.a**2 - self.b**2) * sine + 2.0 * self.b * self.c * cosine
 
 
-def load_of(wave, mesh, exact_forces, velocity, radius, degree):
+def load_of(wave, mesh, velocity, radius, degree):
     """Nodal heat of the source in the body and of the flux through all its sides."""
     k = MATERIAL.conductivity
 
@@ -59,7 +61,7 @@ def load_of(wave, mesh, exact_forces, velocity, radius, degree):
         along, down = wave.gradient(x, z)
         return k * along, 0.0 * x, k * down
 
-    return exact_forces(mesh, flux, source, degree)[:, 0]
+    return forces_of(mesh, flux, source, degree)[:, 0]
 
 
 def l2_error(body, temperature, wave):
@@ -73,14 +75,14 @@ def l2_error(body, temperature, wave):
 
 @pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
 @pytest.mark.parametrize(("degree", "order"), [(1, 2.0), (2, 3.0), (3, 4.0)])
-def test_manufactured_solution_on_a_block(structured_block, exact_forces, degree, order, velocity):
+def test_manufactured_solution_on_a_block(degree, order, velocity):
     """The surface takes the flux; the other sides have the temperature."""
     wave, errors = Wave(), []
     for cells in (8, 16, 32):
         mesh = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
         body = thermal_body(mesh, MATERIAL, degree=degree)
         moving = Conduction(body, velocity, Surroundings("held", "held"))
-        load = load_of(wave, mesh, exact_forces, velocity, np.inf, degree)
+        load = load_of(wave, mesh, velocity, np.inf, degree)
         rise = steady(moving, load, wave.temperature(*body.nodes.T))
         errors.append(l2_error(body, rise, wave))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
@@ -88,14 +90,14 @@ def test_manufactured_solution_on_a_block(structured_block, exact_forces, degree
     assert errors[-1] < {1: 1e-3, 2: 2e-5, 3: 2e-7}[degree]
 
 
-def test_manufactured_solution_on_a_turning_disc(structured_block, exact_forces):
+def test_manufactured_solution_on_a_turning_disc():
     wave, errors = Wave(), []
     for cells in (6, 12, 24):
         flat = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
         mesh = bent(flat, 1.6)
         body = thermal_body(mesh, MATERIAL, radius=1.6)
         turning = Conduction(body, 10.0, Surroundings("held", "held"))
-        load = load_of(wave, mesh, exact_forces, 10.0, 1.6, 2)
+        load = load_of(wave, mesh, 10.0, 1.6, 2)
         rise = steady(turning, load, wave.temperature(*body.nodes.T))
         errors.append(l2_error(body, rise, wave))
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
@@ -287,7 +289,7 @@ def test_a_thin_coating_is_meshed_where_heat_passes(velocity):
     assert len(body.nodes) < 75_000
 
 
-def test_what_is_refused(structured_block):
+def test_what_is_refused():
     with pytest.raises(MeshError, match=r"thermal layers of 1e-09 m .* are too thin to mesh"):
         thermal_spec([[-1.0, 1.0]], 0.1, half_width=10.0, depth=10.0, length=-1e-9)
     body = thermal_body(structured_block(np.linspace(-1, 1, 5), np.linspace(0, 1, 3)), UNIT)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import structured_block
 
 from analytic.material import Material
 from fem.body.coating import Coating
@@ -15,7 +16,7 @@ STEEL = Material(207e9, 0.3)
 ALPHA = 12e-6
 
 
-def test_an_even_temperature_leaves_a_free_body_without_stress(structured_block):
+def test_an_even_temperature_leaves_a_free_body_without_stress():
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), seed=3)
     body = elastic_body(mesh, STEEL, Support("frictionless", "free"))
     stress, across = thermal_stress(body, ALPHA, np.full(len(mesh.points), 50.0))
@@ -24,7 +25,7 @@ def test_an_even_temperature_leaves_a_free_body_without_stress(structured_block)
     assert across == pytest.approx(-scale, rel=1e-10)
 
 
-def test_a_body_held_at_its_sides(structured_block):
+def test_a_body_held_at_its_sides():
     """sx = sy = -E alpha T / (1 - nu) under any temperature of the depth, in each material."""
     z = np.linspace(0, 1, 21)
     mesh = structured_block(np.linspace(-1, 1, 9), z)

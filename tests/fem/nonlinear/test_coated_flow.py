@@ -5,6 +5,7 @@ stress."""
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 from pressed_bodies import MetalScene, press_linearly
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
@@ -26,7 +27,7 @@ REACH = 11.0 / 6.0
 
 
 @pytest.fixture(scope="module")
-def mesh_of(structured_block, graded):
+def mesh_of():
     """A block with a row of elements of a thickness at its surface."""
     beyond = graded(4.0, 0.3, 1.4)
     x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])

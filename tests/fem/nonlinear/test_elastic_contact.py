@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from blocks import structured_block
+from pressed_bodies import dense_contact
 
 from analytic.material import Material
 from analytic.material.hardening import Hardening
@@ -23,7 +25,7 @@ GAP = WEIGHTS * 0.02 * X**2
 
 
 @pytest.fixture(scope="module")
-def compliance(structured_block):
+def compliance():
     mesh = structured_block(np.linspace(-2.0, 2.0, 21), np.linspace(0.0, 2.0, 9))
     return FiniteElementCompliance(elastic_body(mesh, Material(200.0, 0.3), Support()), HATS)
 
@@ -57,13 +59,11 @@ def half_plane_like(friction, count=COUNT):
         (ROUGH, 300.0, COUNT, COUNT),
     ],
 )
-def test_pressures_are_those_of_dense_equations_from_any_start(
-    dense, friction, gap, load, least, most
-):
+def test_pressures_are_those_of_dense_equations_from_any_start(friction, gap, load, least, most):
     """A smooth gap and a rough one, one hat in contact, several patches, all hats."""
     flexible, weights = half_plane_like(friction), np.full(COUNT, 0.9)
     contact = ElasticContact(flexible, weights)
-    expected, at = dense(flexible[ALL], gap, weights, load)
+    expected, at = dense_contact(flexible[ALL], gap, weights, load)
     for start in (np.ones(COUNT), 1.0 * (np.abs(PLACE) < 0.1), np.zeros(COUNT)):
         pressure, approach = contact(gap, load, start)
         np.testing.assert_allclose(pressure, expected, atol=1e-9 * expected.max())
@@ -84,11 +84,11 @@ def test_many_rough_hats_settle_from_all_in_contact():
     assert np.count_nonzero(np.diff(on)) > 20
 
 
-def test_equations_that_do_not_converge_are_solved_directly(dense, monkeypatch):
+def test_equations_that_do_not_converge_are_solved_directly(monkeypatch):
     monkeypatch.setattr(elastic_contact, "MOST_RESIDUALS", 1)
     flexible = half_plane_like(0.3)
     pressure, _ = ElasticContact(flexible, np.ones(COUNT))(ROUGH, 0.3, np.ones(COUNT))
-    expected, _ = dense(flexible[ALL], ROUGH, np.ones(COUNT), 0.3)
+    expected, _ = dense_contact(flexible[ALL], ROUGH, np.ones(COUNT), 0.3)
     np.testing.assert_allclose(pressure, expected, atol=1e-9 * expected.max())
 
 
@@ -110,7 +110,7 @@ def test_a_compliance_closes_the_gap_as_the_whole_body_does(compliance, friction
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])
-def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, structured_block, friction):
+def test_hats_between_nodes_of_a_coarse_roller_do_no_harm(compliance, friction):
     """Its compliance is singular, and the contact as exact as elsewhere; with its inverse the
     residual did not fall below 1e-9."""
     mesh = structured_block(np.linspace(-2.0, 2.0, 7), np.linspace(0.0, 2.0, 4))

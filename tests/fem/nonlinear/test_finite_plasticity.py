@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import moved
+from blocks import moved, structured_block
 from scipy.linalg import logm
 
 from analytic.material import Law, Material
@@ -63,17 +63,17 @@ def test_stress_and_tangent_are_derivatives_of_the_strain():
     np.testing.assert_allclose(tangent, tangent.transpose(0, 2, 1), atol=1e-12)
 
 
-def made(structured_block, height=None):
+def made(height=None):
     mesh = structured_block(np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5), height, seed=2)
     return elastic_body(mesh, HENCKY, Support("bonded", "free"))
 
 
 @pytest.mark.parametrize("height", [None, lambda x: 0.05 * np.cos(3.0 * x)])
-def test_below_yield_it_is_henckys_law(structured_block, monkeypatch, height):
+def test_below_yield_it_is_henckys_law(monkeypatch, height):
     """Forces, tangents and stresses of dolfinx's energy at the same three points, to rounding; its
     tangent differs by the terms that the series of its energy leaves out."""
     monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
-    body = made(structured_block, height)
+    body = made(height)
     metal = FinitePlasticBody(body, ElasticPlastic(HENCKY, Hardening(1e4)))
     law, at, free = HyperelasticBody(body), moved(body, 0.06, 1), ~body.held.ravel()
     (force, tangent), (wanted, exact) = metal.linearised(at), law.linearised(at)
@@ -91,8 +91,8 @@ def test_below_yield_it_is_henckys_law(structured_block, monkeypatch, height):
 VOCE = Hardening(0.5, voce=(0.9, 30.0))
 
 
-def flowing(structured_block, hardening=VOCE):
-    body = made(structured_block)
+def flowing(hardening=VOCE):
+    body = made()
     plastic = FinitePlasticBody(body, ElasticPlastic(HENCKY, hardening))
     plastic.accept(moved(body, 0.03, 1))
     assert 0.02 < plastic.state.equivalent.max() < 0.5
@@ -100,8 +100,8 @@ def flowing(structured_block, hardening=VOCE):
 
 
 @pytest.mark.parametrize("kinematic", [0.0, 8.0])
-def test_tangent_is_the_derivative_of_the_force(structured_block, kinematic):
-    plastic = flowing(structured_block, replace(VOCE, kinematic=kinematic))
+def test_tangent_is_the_derivative_of_the_force(kinematic):
+    plastic = flowing(replace(VOCE, kinematic=kinematic))
     at, way, h = moved(plastic.body, 0.05, 4), moved(plastic.body, 0.01, 5), 1e-5
     _, tangent = plastic.linearised(at)
     assert plastic.step(at).yields.all()
@@ -110,9 +110,9 @@ def test_tangent_is_the_derivative_of_the_force(structured_block, kinematic):
     assert abs(tangent - tangent.T).max() < 1e-12 * abs(tangent).max()
 
 
-def test_it_is_objective_and_keeps_the_volume(structured_block):
+def test_it_is_objective_and_keeps_the_volume():
     """A turned body has turned forces; what flows far changes its volume by its pressure alone."""
-    plastic = flowing(structured_block)
+    plastic = flowing()
     at = moved(plastic.body, 0.06, 4)
     angle = 0.7
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -132,10 +132,10 @@ def test_it_is_objective_and_keeps_the_volume(structured_block):
     np.testing.assert_allclose(mean, HENCKY.bulk_modulus * np.log(volume), atol=1e-11)
 
 
-def test_shear_bears_the_yield_stress_however_far_it_goes(structured_block):
+def test_shear_bears_the_yield_stress_however_far_it_goes():
     """Simple shear g of a nearly rigid metal without hardening: Y / sqrt 3, over a plastic strain
     of g / sqrt 3, in turned axes as well."""
-    body, turn = made(structured_block), np.array([[0.6, -0.8], [0.8, 0.6]])
+    body, turn = made(), np.array([[0.6, -0.8], [0.8, 0.6]])
     plastic = FinitePlasticBody(body, ElasticPlastic(HENCKY, Hardening(0.02)))
     for sheared in np.linspace(0.0, 3.0, 151)[1:]:
         gradient = turn @ [[0.0, sheared], [0.0, 0.0]] @ turn.T
@@ -146,9 +146,9 @@ def test_shear_bears_the_yield_stress_however_far_it_goes(structured_block):
     np.testing.assert_allclose(plastic.state.equivalent, np.sqrt(3.0), rtol=1e-3)
 
 
-def test_small_strains_are_the_small_strain_body(structured_block):
+def test_small_strains_are_the_small_strain_body():
     """The difference falls with the square of the strains, of which rotations are a part."""
-    body, left = made(structured_block), []
+    body, left = made(), []
     for size in (4e-4, 2e-4, 1e-4):
         metal = ElasticPlastic(HENCKY, Hardening(100.0 * size, 20.0))
         at = moved(body, size, 1)
@@ -159,7 +159,7 @@ def test_small_strains_are_the_small_strain_body(structured_block):
     assert np.all(np.abs(orders - 2.0) < 0.1), orders
 
 
-def test_inverted_elements_are_an_error(structured_block):
-    plastic = flowing(structured_block)
+def test_inverted_elements_are_an_error():
+    plastic = flowing()
     with pytest.raises(FemError, match="inverted"):
         plastic.force([-1.5, 0.0] * plastic.body.nodes)

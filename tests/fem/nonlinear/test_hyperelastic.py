@@ -3,6 +3,7 @@ quadratic elements, neo-Hookean ones on curved elements."""
 
 import numpy as np
 import pytest
+from blocks import structured_block
 from pressed_bodies import neo_hookean_energy
 
 from analytic.material import LAWS, Law, Material
@@ -30,7 +31,7 @@ def law(request):
 
 
 @pytest.fixture(scope="module")
-def straight(structured_block, law):
+def straight(law):
     """A body of straight elements without symmetry that follows a law."""
     return elastic_body(structured_block(X, Z, seed=3), Material(2.0, 0.3, law), Support())
 
@@ -170,7 +171,7 @@ def bent(x):
 
 
 @pytest.fixture(scope="module")
-def body(structured_block):
+def body():
     """Curved elements without symmetry."""
     return elastic_body(structured_block(X, Z, bent, seed=3), MATERIAL, Support())
 

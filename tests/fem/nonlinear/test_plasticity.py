@@ -3,7 +3,7 @@ load."""
 
 import numpy as np
 import pytest
-from blocks import hooke, moved
+from blocks import hooke, moved, structured_block
 from flat_punch import LIMIT, punch_pressures
 from scipy.spatial import cKDTree
 
@@ -11,6 +11,7 @@ from analytic.material import Material
 from analytic.material.hardening import Hardening
 from fem import compat
 from fem.body.elasticity import Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.terms import LinearContact
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
@@ -24,15 +25,15 @@ def height(x):
     return 0.05 * np.cos(3.0 * x)
 
 
-def made(structured_block, shape=None):
+def made(shape=None):
     x, z = np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5)
     mesh = structured_block(x, z, shape, seed=2)
     return elastic_body(mesh, METAL.elastic, Support("bonded", "free"))
 
 
 @pytest.fixture(scope="module", params=[None, height], ids=["flat", "curved"])
-def body(request, structured_block):
-    return made(structured_block, request.param)
+def body(request):
+    return made(request.param)
 
 
 def with_history(body):
@@ -42,11 +43,11 @@ def with_history(body):
     return plastic
 
 
-def test_forces_of_a_constant_stress_are_those_of_its_tractions(body, exact_forces):
+def test_forces_of_a_constant_stress_are_those_of_its_tractions(body):
     plastic = PlasticBody(body, METAL)
     stress = np.array([1.0, -2.0, 0.7])
     force = plastic.force_of(np.tile(stress, (len(plastic.points), 1)))
-    np.testing.assert_allclose(force, exact_forces(body.mesh, lambda x, z: stress), atol=1e-13)
+    np.testing.assert_allclose(force, forces_of(body.mesh, lambda x, z: stress), atol=1e-13)
 
 
 def test_elastic_body_until_it_yields(body):
@@ -70,9 +71,9 @@ def test_tangent_is_the_derivative_of_the_force(body):
     assert abs(tangent - body.stiffness()).max() > 0.1 * abs(tangent).max()
 
 
-def test_force_and_tangent_are_those_of_quadrature_functions(structured_block):
+def test_force_and_tangent_are_those_of_quadrature_functions():
     """dolfinx assembles both from stresses and tangents at the same points."""
-    plastic = with_history(made(structured_block))
+    plastic = with_history(made())
     body, displacement = plastic.body, moved(plastic.body, 3.0 * YIELD, 4)
     force, tangent = plastic.linearised(displacement)
     step = plastic.step(displacement)
@@ -153,8 +154,8 @@ def test_limit_load_of_a_flat_punch():
     assert 1.0 < fine[-1] / fine[-2] < 1.001
 
 
-def test_bodies_that_cannot_flow_are_refused(structured_block):
-    body = made(structured_block)
+def test_bodies_that_cannot_flow_are_refused():
+    body = made()
     with pytest.raises(ValueError, match="elastic constants"):
         PlasticBody(body, ElasticPlastic(Material(E, 0.2), Hardening(Y)))
     linear = elastic_body(body.mesh, METAL.elastic, Support(), degree=1)

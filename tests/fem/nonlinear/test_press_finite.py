@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 from flat_punch import LIMIT, punch_pressures
 from flow_energy import AccountedFiniteHistory
 from scenes import hat_nodes
@@ -32,7 +33,7 @@ HERTZ = np.sqrt(np.maximum(1.0 - X**2, 0.0))
 
 
 @pytest.fixture(scope="module")
-def made(structured_block, graded):
+def made():
     """Bodies by the height of their surface."""
     beyond = graded(6.0, 0.3, 1.4)
     x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import hooke, structured_block
 from flow_energy import AccountedHistory
-from pressed_bodies import STEEL, MetalScene
+from pressed_bodies import STEEL, MetalScene, dense_contact
 from scipy.integrate import trapezoid
 from scipy.optimize import minimize
 
@@ -82,11 +82,11 @@ def test_first_yield(large, friction):
             np.testing.assert_allclose(middle, [x, z], atol=0.06)
 
 
-def test_below_first_yield_it_is_the_elastic_contact(small_block, dense):
+def test_below_first_yield_it_is_the_elastic_contact(small_block):
     scene = MetalScene(small_block, 1.5, 6)
     _, (contact,) = scene.press([1.0])
     load = scene.hertz.load_per_length
-    pressure, approach = dense(scene.pressed.matrix(), scene.gap, scene.weights, load)
+    pressure, approach = dense_contact(scene.pressed.matrix(), scene.gap, scene.weights, load)
     np.testing.assert_allclose(contact.pressure, pressure, atol=1e-9 * pressure.max())
     assert contact.approach == pytest.approx(approach, rel=1e-9)
     assert not contact.state.equivalent.any()
@@ -211,7 +211,7 @@ def test_units_do_not_matter(small_block):
     np.testing.assert_allclose(second.state.equivalent, first.state.equivalent, atol=1e-9)
 
 
-def test_fields_of_a_linear_stress_are_exact(structured_block):
+def test_fields_of_a_linear_stress_are_exact():
     mesh = structured_block(np.linspace(-1.0, 1.0, 5), np.linspace(0.0, 1.0, 4), seed=1)
     body = elastic_body(mesh, STEEL, Support())
     plastic = PlasticBody(body, ElasticPlastic(STEEL, Hardening(1e3)))

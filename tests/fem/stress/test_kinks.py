@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import hooke, structured_block
 from scenes import reference
 
 from analytic.material import Material
@@ -113,7 +113,7 @@ def test_sums_over_the_kinks_are_those_of_a_table():
     np.testing.assert_allclose(sums, expected, atol=1e-13 * np.abs(expected).max())
 
 
-def test_the_kinks_exert_the_load(structured_block):
+def test_the_kinks_exert_the_load():
     """Along a straight surface, kinks alone: the force of the load, by length of arc."""
     rise, hats, pressure = 0.3, np.array([-0.6, -0.3, 0.1, 0.5]), np.array([2.0, 3.0])
     line = np.linspace(-1, 1, 17)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blocks import structured_block
 from nodal_stress import nodal_stress
 
 from analytic.exact.hertz import hertz_extremes
@@ -49,7 +50,7 @@ def test_largest_orthogonal_shear(pressed):
 
 
 @pytest.fixture(scope="module")
-def body(structured_block):
+def body():
     mesh = structured_block(np.linspace(-1, 1, 11), np.linspace(0, 1, 7), seed=6)
     return elastic_body(mesh, Material(1.0, 0.3), Support())
 
@@ -66,7 +67,7 @@ def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
 
 
 @pytest.fixture(scope="module")
-def ridge(structured_block):
+def ridge():
     """A body with an edge of elements along x = 0, and a smooth hill with its top on it."""
     mesh = structured_block(np.linspace(-1, 1, 21), np.linspace(0, 1, 13))
     body = elastic_body(mesh, Material(1.0, 0.3), Support())
@@ -167,7 +168,7 @@ def test_looking_where_an_estimate_is_high_finds_what_looking_everywhere_does(pr
         np.testing.assert_allclose(largest, expected, rtol=1e-9, atol=1e-9)
 
 
-def test_each_material_has_its_own_poissons_ratio(structured_block):
+def test_each_material_has_its_own_poissons_ratio():
     """Equal strain on both sides: the quantity differs only by Poisson's ratio."""
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
     coating = Coating(Material(1.0, 0.1), 0.25)

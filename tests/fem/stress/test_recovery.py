@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import graded, hooke, structured_block
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.body.surface import straight_down
 from fem.body.triangle import GAUSS, gradients, jacobians, reference_nodes, slopes
 from fem.stress.kinks import Kinks, Weights
@@ -15,7 +16,7 @@ from fem.stress.surface_load import SurfaceLoad
 MATERIAL = Material(3.0, 0.3)
 
 
-def body_of(structured_block, cells):
+def body_of(cells):
     line = np.linspace(-1, 1, cells + 1)
     mesh = structured_block(line, np.linspace(0, 1, cells // 2 + 1), seed=5)
     return elastic_body(mesh, MATERIAL, Support())
@@ -31,9 +32,7 @@ def stress_of(*strain):
     return np.stack(hooke(*strain), axis=-1)
 
 
-def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(
-    structured_block, degree
-):
+def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(degree):
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), seed=5)
     body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
     power = degree - 1
@@ -49,7 +48,7 @@ def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(
 
 
 @pytest.mark.parametrize("thickness", [0.25, 0.5])
-def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
+def test_a_jump_at_an_interface_is_kept(thickness):
     """The displacement bends there; linear stresses on both sides, one or two elements thick."""
     coating = Coating(Material(9.0, 0.2), thickness)
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
@@ -72,7 +71,7 @@ def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
     assert twice.sum() == 2 * 17 and np.all(z[twice] == thickness)
 
 
-def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(structured_block, graded, rng):
+def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(rng):
     """Patches so coarse that five radii reach the load. A linear stress that leaves the surface
     free is exact; that of a hat of force 1, smooth there, is off by a small part of 1 / (pi r)."""
     hats, outer = np.linspace(-1.0, 1.0, 33), 1.0 + graded(300.0, 0.05, 1.25)
@@ -98,9 +97,9 @@ def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(structured_blo
     assert (np.abs(error).max(axis=1) * np.pi * np.hypot(x, z))[far].max() < 0.05
 
 
-def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block):
+def test_inner_forces_balance_the_load_and_the_support_bears_it():
     """Virtual work of the elements' stresses: the load at free points, the reactions at held."""
-    body = body_of(structured_block, 12)
+    body = body_of(12)
     load = np.zeros(body.mesh.points.shape)
     load[body.surface.point] = np.random.default_rng(8).normal(size=(len(body.surface.x), 2))
     load[body.held] = 0.0
@@ -120,9 +119,7 @@ def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block
 
 
 @pytest.mark.parametrize("thickness", [None, 0.5])
-def test_what_is_asked_for_piece_by_piece_is_what_all_at_once_gives(
-    structured_block, rng, thickness, monkeypatch
-):
+def test_what_is_asked_for_piece_by_piece_is_what_all_at_once_gives(rng, thickness, monkeypatch):
     """Under several friction coefficients together, against each of them alone."""
     coating = thickness and Coating(Material(9.0, 0.2), thickness)
     mesh = structured_block(np.linspace(-1, 1, 17), np.linspace(0, 1, 9), lambda x: 0.03 * x**2)
@@ -145,7 +142,7 @@ def test_what_is_asked_for_piece_by_piece_is_what_all_at_once_gives(
     assert not np.array_equal(alone[:, 0], alone[:, 1])
 
 
-def test_the_smallest_block_still_has_stresses(structured_block):
+def test_the_smallest_block_still_has_stresses():
     mesh = structured_block(np.linspace(-1, 1, 3), np.array([0.0, 1.0]))
     body = elastic_body(mesh, MATERIAL, Support())
     x, z = body.points.T
@@ -154,14 +151,14 @@ def test_the_smallest_block_still_has_stresses(structured_block):
     np.testing.assert_allclose(stress, exact, atol=1e-7)
 
 
-def test_a_smooth_solution_is_recovered_with_order(structured_block, exact_forces, manufactured):
+def test_a_smooth_solution_is_recovered_with_order(manufactured):
     """Solved, not interpolated. The elements' own stresses at the nodes have order 2 as well, and
     twenty times the error; the boundary's half patches catch up with the inner ones."""
     exact = manufactured(MATERIAL)
     errors, unrecovered = [], []
     for cells in (8, 16, 32):
-        body = body_of(structured_block, cells)
-        moved = body.solve(exact_forces(body.mesh, exact.stress, exact.body_force))
+        body = body_of(cells)
+        moved = body.solve(forces_of(body.mesh, exact.stress, exact.body_force))
         truth = np.stack(exact.stress(*body.points.T), axis=-1)
         error = recovered_stress(body, moved) - truth
         inner = np.all(np.abs(body.points - [0.0, 0.5]) < [0.7, 0.3], axis=1)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import graded, structured_block
 from layer_stresses import layer_field
 from nodal_stress import displacement_under, nodal_stress
 from scenes import hat_nodes
@@ -13,6 +14,7 @@ from analytic.material import Material
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.body.triangle import shapes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import at_nodes, evaluate, nodal_stresses, within
@@ -143,7 +145,7 @@ def test_the_errors_fall_with_the_elements(pressed, friction):
 
 
 @pytest.fixture(scope="module")
-def coated(structured_block, graded):
+def coated():
     """A coating three times as stiff on a large block under an ellipse of pressure."""
     edge, thickness = 0.05, 0.25
     side = 1.4 + graded(1000.0, edge, 1.2)[1:]
@@ -189,7 +191,7 @@ def test_poissons_ratio_is_that_of_each_side_of_an_interface(coated):
     assert sx.max() > 0.5
 
 
-def test_kinks_are_not_seen_across_an_interface(structured_block):
+def test_kinks_are_not_seen_across_an_interface():
     """Right below a coating one element thick stresses are quadratic between the nodes."""
     coating = Coating(Material(3.0, 0.2), 0.25)
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
@@ -240,13 +242,13 @@ def test_every_level_bears_the_whole_load(pressed):
         assert -trapezoid(txz, x) == pytest.approx(friction * load, rel=5e-3)
 
 
-def hydrostatic(height, slope, cells, structured_block, exact_forces):
+def hydrostatic(height, slope, cells):
     """A rough block under sz = -1 and confined sides: sx = sz nu/(1-nu) everywhere, txz = 0."""
     line = np.linspace(-1, 1, cells + 1)
     mesh = structured_block(line, np.linspace(0, 1, cells // 2 + 1), height)
     body = elastic_body(mesh, MATERIAL, Support("frictionless", "rollers"))
     ratio = MATERIAL.poissons_ratio / (1.0 - MATERIAL.poissons_ratio)
-    moved = body.solve(exact_forces(mesh, lambda x, z: (-ratio + 0 * x, -1.0, 0.0)))
+    moved = body.solve(forces_of(mesh, lambda x, z: (-ratio + 0 * x, -1.0, 0.0)))
     hats, pressure = np.array([-9.0, -8.0, 8.0, 9.0]), np.ones(2)
     nodal = nodal_stress(
         body, moved, hats, pressure, direction=lambda x: (ratio * slope(x), np.ones_like(x))
@@ -256,18 +258,17 @@ def hydrostatic(height, slope, cells, structured_block, exact_forces):
     )
 
 
-def test_uniform_stress_under_a_rough_surface(structured_block, exact_forces):
+def test_uniform_stress_under_a_rough_surface():
     """Exact but for the shape of quadratic edges, off by the third order."""
-    assert hydrostatic(None, np.zeros_like, 8, structured_block, exact_forces) < 1e-8
+    assert hydrostatic(None, np.zeros_like, 8) < 1e-8
     wave = lambda x: 0.05 * np.cos(3 * x), lambda x: -0.15 * np.sin(3 * x)
-    made = structured_block, exact_forces
-    errors = [hydrostatic(*wave, cells, *made) for cells in (16, 32, 64)]
+    errors = [hydrostatic(*wave, cells) for cells in (16, 32, 64)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert 1e-6 < errors[-1] < 1e-4
     assert np.all(np.abs(orders - 3.0) < 0.3), orders
 
 
-def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face(structured_block):
+def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face():
     """Traction vector of the nodal stresses on the face equals the force that was applied."""
     line = np.linspace(-1, 1, 65)
     mesh = structured_block(line, np.linspace(0, 1, 17), lambda x: 0.2 * x)
@@ -290,7 +291,7 @@ def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face(structured_
     np.testing.assert_allclose(force[inside], expected[inside], atol=1e-12)
 
 
-def test_evaluation_is_quadratic_and_keeps_shapes(structured_block):
+def test_evaluation_is_quadratic_and_keeps_shapes():
     mesh = structured_block(np.linspace(-1, 1, 7), np.linspace(0, 1, 4), seed=4)
     body = elastic_body(mesh, MATERIAL, Support())
     x, z = body.points.T
