@@ -132,3 +132,27 @@ def structured_block(
     if height is not None:
         mesh.shift[:, 1] = -height(mesh.points[:, 0]) * (1.0 - mesh.points[:, 1] / z[-1])
     return mesh
+
+
+class Manufactured:
+    """A smooth displacement that vanishes at depth 1, its stress, and the body force it needs."""
+
+    def __init__(self, material: Material) -> None:
+        self.material = material
+
+    def displacement(self, x, z):
+        return (z - 1) * np.sin(1.3 * x + 0.4 * z), (z - 1) * np.cos(0.7 * x - 0.9 * z)
+
+    def stress(self, x, z):
+        step = 1e-20  # imaginary: derivatives to machine precision
+        ux_x, uz_x = (np.imag(u) / step for u in self.displacement(x + step * 1j, z))
+        ux_z, uz_z = (np.imag(u) / step for u in self.displacement(x, z + step * 1j))
+        return hooke(self.material, ux_x, uz_z, ux_z + uz_x)
+
+    def body_force(self, x, z):
+        h = 1e-5
+        right, left = self.stress(x + h, z), self.stress(x - h, z)
+        below, above = self.stress(x, z + h), self.stress(x, z - h)
+        sx_x, _, txz_x = ((r - s) / (2 * h) for r, s in zip(right, left, strict=True))
+        _, sz_z, txz_z = ((b - a) / (2 * h) for b, a in zip(below, above, strict=True))
+        return -(sx_x + txz_z), -(txz_x + sz_z)

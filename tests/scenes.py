@@ -46,6 +46,30 @@ GROUND = {
 }
 # With a field of few points, and nothing beside the two models.
 QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
+# Of runs that are finished without finite elements: smooth with a field; rough with a hardness and
+# two friction coefficients; and a rough layer without a field.
+STEADY = {
+    "title": "Smooth roller on a smooth half-plane",
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6},
+    "stress": {"points": [60, 20]},
+}
+WAVY = {
+    "title": "Wavy body",
+    "roller": {"radius": 10e-3, **STEEL},
+    "body": {**STEEL, "hardness": 4e9},
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+    "stress": {"points": [60, 20]},
+}
+WAVY_LAYER = {
+    "title": "Wavy",
+    "roller": {"radius": 10e-3, "rigid": True},
+    "body": {**STEEL, "thickness": 2e-3, "base": "frictionless"},
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "load": {"hertz_peak_pressure": 1e9},
+}
 # Finished runs by what they are of, the latest of this session.
 RUNS: "dict[tuple, Run]" = {}
 MOST_RUNS = 12

@@ -200,7 +200,9 @@ def svg(drawn: "Figure") -> str:
     buffer = io.BytesIO()
     drawn.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     # a hundredth of a point is enough for outlines, and half the size
-    short = _OUTLINE.sub(_shortened, buffer.getvalue())
+    short = _OUTLINE.sub(
+        lambda outline: b' d="' + _INVISIBLE.sub(b"", outline[1]).strip() + b'"', buffer.getvalue()
+    )
     return short.decode("utf-8")
 
 
@@ -211,11 +213,6 @@ def svgs(draws: "Mapping[str, Callable[[], Figure]]") -> dict[str, str]:
             name: attempted(name, lambda draw=draw: svg(draw())) for name, draw in draws.items()
         }
     return {name: text for name, text in made.items() if isinstance(text, str)}
-
-
-def _shortened(outline: re.Match[bytes]) -> bytes:
-    """An outline without invisible decimals and blanks."""
-    return b' d="' + _INVISIBLE.sub(b"", outline[1]).strip() + b'"'
 
 
 def picture(

@@ -143,7 +143,10 @@ def _candidates(run: Run, kind: str) -> Iterator[Offer]:
     elif kind == "inconclusive":
         yield from _of_open(run, worst_of(run))
     else:
-        yield from _of_yield_stress(run, at_any=kind == "fails")
+        if unknown := yielding.may_flow(run, at_any=kind == "fails"):
+            stress, said, is_known = _typical_stress(run)
+            words = f"body.yield_stress: {unknown}{said * is_known}"
+            yield Offer(words, (f"body.yield_stress={stress}",), is_known=is_known)
         whole = f"{figures_of_whole(run)} in place of the half-plane's"
         yield Offer("nothing" if kind == "holds" else whole)
 
@@ -208,14 +211,6 @@ def _of_flow(run: Run) -> Iterator[Offer]:
         fields = ", ".join(text.partition("=")[0] for text in settings)
         words = f"the flow is computed with {fields}{said * bool(given)}"
         yield Offer(words, settings, {}, FLOW, is_known, or_linear=bool(given))
-
-
-def _of_yield_stress(run: Run, at_any: bool) -> Iterator[Offer]:
-    """The yield stress of a body that may flow at such stresses."""
-    if unknown := yielding.may_flow(run, at_any):
-        stress, said, is_known = _typical_stress(run)
-        words = f"body.yield_stress: {unknown}{said * is_known}"
-        yield Offer(words, (f"body.yield_stress={stress}",), is_known=is_known)
 
 
 def _typical_stress(run: Run) -> tuple[str, str, bool]:

@@ -120,17 +120,12 @@ def rerun_summary(repetition: Repetition) -> "RenderableType":
     from rich.console import Group
     from rich.text import Text
 
-    movement = repetition.movement
-    parts: list[RenderableType] = [
-        Text(one_line(repetition.outcome.problem.scene.title), style="bold"),
-        "",
-    ]
-    if movement.moved:
-        parts += [_table(movement.moved), ""]
+    moved = repetition.movement.moved
+    title = Text(one_line(repetition.outcome.problem.scene.title), style="bold")
+    table = [_table(moved), ""] if moved else []
     style = STYLES["agree" if repetition.exit_status == 0 else "differ"]
-    parts.append(Text(_verdict(repetition), style=style))
-    parts += [Text(line) for line in _lines(repetition)]
-    return Group(*parts)
+    verdict = Text(_verdict(repetition), style=style)
+    return Group(title, "", *table, verdict, *map(Text, _lines(repetition)))
 
 
 def _table(moved: tuple[Moved, ...]) -> "Table":

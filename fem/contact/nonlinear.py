@@ -171,11 +171,6 @@ class ContactProblem:
         return 1.0 / soft
 
     @cached_property
-    def least_residual(self) -> float:
-        """From which a step may let the residual grow."""
-        return CAPPED_RESIDUAL if np.isfinite(self.hardness).any() else RESIDUAL
-
-    @cached_property
     def stiff(self) -> float:
         """Pressure over gap of one hat [Pa/m]."""
         return self.stiffness / self.weights.mean()
@@ -265,7 +260,8 @@ def _moved(
             why = str(error)
             continue
         residual = problem.residual(reached, load)
-        if residual <= GROWTH * max(before, problem.least_residual):
+        least = CAPPED_RESIDUAL if np.isfinite(problem.hardness).any() else RESIDUAL
+        if residual <= GROWTH * max(before, least):
             return reached, residual
     raise FemError(f"no step is acceptable: {why}")
 

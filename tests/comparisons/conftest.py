@@ -18,7 +18,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, resolved
+from scenes import STEADY, WAVY, resolved
 
 import meshes.build
 from analytic.contact.patches import contact_patches
@@ -51,21 +51,6 @@ tasks.WORTH_A_FORK = tasks.WORTH_A_START = math.inf
 PROJECT = Path(__file__).resolve().parents[2]
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
-SMOOTH = {
-    "title": "Smooth roller on a smooth half-plane",
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 1e6},
-    "stress": {"points": [60, 20]},
-}
-WAVY = {
-    "title": "Wavy body",
-    "roller": {"radius": 10e-3, **STEEL},
-    "body": {**STEEL, "hardness": 4e9},
-    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
-    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
-    "stress": {"points": [60, 20]},
-}
 
 
 def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
@@ -183,20 +168,8 @@ def finish() -> Callable[..., Run]:
 
 
 @pytest.fixture(scope="session")
-def smooth_tables() -> dict:
-    """A scene of smooth steel with a field, as tables."""
-    return SMOOTH
-
-
-@pytest.fixture(scope="session")
-def wavy_tables() -> dict:
-    """A rough one with a hardness and two friction coefficients, as tables."""
-    return WAVY
-
-
-@pytest.fixture(scope="session")
 def smooth_outcome() -> Run:
-    return finished_run(SMOOTH)
+    return finished_run(STEADY)
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import graded, hooke, structured_block
+from blocks import graded, structured_block
 from nodal_stress import nodal_stress
 from pressed_bodies import dense_contact
 from scenes import hat_nodes
@@ -32,35 +32,6 @@ def small_block() -> BlockMesh:
     beyond = graded(4.0, 0.3, 1.4)
     x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
     return structured_block(x, graded(6.0, 0.14, 1.2))
-
-
-class Manufactured:
-    """A smooth displacement that vanishes at depth 1, its stress, and the body force it needs."""
-
-    def __init__(self, material: Material) -> None:
-        self.material = material
-
-    def displacement(self, x, z):
-        return (z - 1) * np.sin(1.3 * x + 0.4 * z), (z - 1) * np.cos(0.7 * x - 0.9 * z)
-
-    def stress(self, x, z):
-        step = 1e-20  # imaginary: derivatives to machine precision
-        ux_x, uz_x = (np.imag(u) / step for u in self.displacement(x + step * 1j, z))
-        ux_z, uz_z = (np.imag(u) / step for u in self.displacement(x, z + step * 1j))
-        return hooke(self.material, ux_x, uz_z, ux_z + uz_x)
-
-    def body_force(self, x, z):
-        h = 1e-5
-        right, left = self.stress(x + h, z), self.stress(x - h, z)
-        below, above = self.stress(x, z + h), self.stress(x, z - h)
-        sx_x, _, txz_x = ((r - s) / (2 * h) for r, s in zip(right, left, strict=True))
-        _, sz_z, txz_z = ((b - a) / (2 * h) for b, a in zip(below, above, strict=True))
-        return -(sx_x + txz_z), -(txz_x + sz_z)
-
-
-@pytest.fixture(scope="session")
-def manufactured() -> type[Manufactured]:
-    return Manufactured
 
 
 class Pressed:

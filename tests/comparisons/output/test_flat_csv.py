@@ -5,6 +5,7 @@ import io
 import json
 
 import pytest
+from scenes import STEADY
 
 from comparisons.cli import main
 from comparisons.common.provenance import as_json
@@ -15,10 +16,10 @@ from comparisons.studies import meaning
 
 
 @pytest.fixture(scope="module")
-def runs(tmp_path_factory, smooth_outcome, wavy_outcome, finish, smooth_tables):
+def runs(tmp_path_factory, smooth_outcome, wavy_outcome, finish):
     """Three runs, one of a single model, in a folder; and what is no run."""
     folder = tmp_path_factory.mktemp("runs")
-    alone = finish(smooth_tables, ("half_plane",))
+    alone = finish(STEADY, ("half_plane",))
     for name, outcome in (("a", smooth_outcome), ("deep/b", wavy_outcome), ("c", alone)):
         (folder / name).mkdir(parents=True)
         (folder / name / "result.json").write_text(as_json(content_of(result_of(outcome))))

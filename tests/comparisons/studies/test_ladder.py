@@ -7,7 +7,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from scenes import changed, refound
+from scenes import STEADY, WAVY, changed, refound
 
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
@@ -23,14 +23,14 @@ TOLERANT = {"peak_pressure": 0.1, "contact_length": 0.1, "tau1_max": 0.1}
 
 
 @pytest.fixture(scope="module")
-def smooth_outcome(finish, smooth_tables):
+def smooth_outcome(finish):
     """Under a load at which nothing else matters."""
-    return finish(changed(smooth_tables, load={"per_length": 1e4}))
+    return finish(changed(STEADY, load={"per_length": 1e4}))
 
 
 @pytest.fixture(scope="module")
-def wavy_outcome(finish, wavy_tables):
-    return finish(changed(wavy_tables, tolerance=TOLERANT))
+def wavy_outcome(finish):
+    return finish(changed(WAVY, tolerance=TOLERANT))
 
 
 def test_hertz_stands_where_the_surface_is_smooth(smooth_outcome):

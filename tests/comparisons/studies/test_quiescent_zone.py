@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import STEEL, half_plane_at, problem, run_of
+from scenes import STEADY, STEEL, half_plane_at, problem, run_of
 from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
@@ -147,8 +147,8 @@ def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
         assert q.zone_figures(*posed)[1] == state
 
 
-def test_scenes_without_fields_or_roughness_have_none(finish, smooth_tables):
-    assert q.NAME not in finish(smooth_tables).findings
+def test_scenes_without_fields_or_roughness_have_none(finish):
+    assert q.NAME not in finish(STEADY).findings
     outcome = run_of({k: v for k, v in WAVY.items() if k != "stress"}, "half_plane")
     assert q.NAME not in outcome.findings
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, run_of
+from scenes import STEADY, STEEL, run_of
 
 from analytic.material import Material
 from comparisons.common.errors import ExitStatus
@@ -109,8 +109,8 @@ def test_plasticity_indices_of_a_wave(wavy_outcome):
     assert index == pytest.approx(wavy_outcome.problem.modulus / 4e9 * slope, rel=1e-2)
 
 
-def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish, smooth_tables):
-    weak = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 1e8}})
+def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish):
+    weak = finish({**STEADY, "body": {**STEEL, "yield_stress": 1e8}})
     said = headline(weak)
     assert said.kind == "fails" and said.within.size is None
     assert said.within.said.startswith("the elastic half-plane does not apply: its largest shear")
@@ -120,12 +120,12 @@ def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish,
     assert "made.yield" in {
         case.classname for case in run_cases_of(weak) if case.result != "passed"
     }
-    strong = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 5e9}})
+    strong = finish({**STEADY, "body": {**STEEL, "yield_stress": 5e9}})
     assert kind_of(strong) != "fails"
 
 
-def test_shakedown_is_said_beside_a_yield_stress(smooth_outcome, finish, smooth_tables):
-    outcome = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 1e9}})
+def test_shakedown_is_said_beside_a_yield_stress(smooth_outcome, finish):
+    outcome = finish({**STEADY, "body": {**STEEL, "yield_stress": 1e9}})
     known = outcome.figures.of(study="yield")
     assert known.one(quantity="shakedown_limit").value == pytest.approx(4.0, rel=1e-5)
     peak = float(outcome.runs["half_plane"].finest.solution.pressure.max())

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import SumOfBodies, structured_block
+from blocks import Manufactured, SumOfBodies, structured_block
 from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
@@ -50,10 +50,10 @@ class TestSector:
         assert 0.05 < radii[-1] * difference[-1] / np.linalg.norm(straight) < 5.0
 
     @pytest.mark.parametrize("radius", [1.5, 10.0])
-    def test_displacement_of_a_bent_body_is_of_order_three(self, manufactured, radius):
+    def test_displacement_of_a_bent_body_is_of_order_three(self, radius):
         """A smooth displacement that vanishes on the inner arc, from its forces."""
 
-        class Held(manufactured):
+        class Held(Manufactured):
             def displacement(self, x, z):
                 out = (x**2 + (radius - z) ** 2 - (radius - 1.0) ** 2) / radius
                 return out * np.sin(1.3 * x + 0.4 * z), out * np.cos(0.7 * x - 0.9 * z)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import graded, hooke, structured_block
+from blocks import Manufactured, graded, hooke, structured_block
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
@@ -151,10 +151,10 @@ def test_the_smallest_block_still_has_stresses():
     np.testing.assert_allclose(stress, exact, atol=1e-7)
 
 
-def test_a_smooth_solution_is_recovered_with_order(manufactured):
+def test_a_smooth_solution_is_recovered_with_order():
     """Solved, not interpolated. The elements' own stresses at the nodes have order 2 as well, and
     twenty times the error; the boundary's half patches catch up with the inner ones."""
-    exact = manufactured(MATERIAL)
+    exact = Manufactured(MATERIAL)
     errors, unrecovered = [], []
     for cells in (8, 16, 32):
         body = body_of(cells)

@@ -104,11 +104,14 @@ def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
 
 def _profile(info: ProfileInfo) -> Rows:
     length, spacing = (with_unit(size, "m") for size in (info.length, info.spacing))
+    long, short = info.cutoff, info.short_cutoff
+    removed = [f"waves longer than {in_mm(long)} removed"] if long else []
+    removed += [f"waves shorter than {as_written(short, 'm')} removed"] if short else []
     rows = [
         ("profile", info.source),
         ("samples, length, spacing", f"{info.samples}, {length}, {spacing}"),
         ("form", str(info.form)),
-        ("filter", filter_text(info)),
+        ("filter", ", ".join(removed) or "none"),
     ]
     if info.place:
         rows.insert(1, ("line of the map", info.place))
@@ -118,15 +121,6 @@ def _profile(info: ProfileInfo) -> Rows:
             lost += f", the longest from {' to '.join(with_unit(v, 'm') for v in info.stretch)}"
         rows.append(("lost samples", lost))
     return rows
-
-
-def filter_text(info: ProfileInfo) -> str:
-    """Which waves were taken off the trace before it was pressed."""
-    longer = info.cutoff and f"waves longer than {in_mm(info.cutoff)} removed"
-    shorter = (
-        info.short_cutoff and f"waves shorter than {as_written(info.short_cutoff, 'm')} removed"
-    )
-    return ", ".join(filter(None, (longer, shorter))) or "none"
 
 
 def in_mm(cutoff: float) -> str:

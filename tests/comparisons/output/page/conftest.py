@@ -6,20 +6,13 @@ from html.parser import HTMLParser
 
 import pytest
 from matplotlib import pyplot
-from scenes import STEEL
+from scenes import WAVY_LAYER
 
 from comparisons.drawing.style import collected_figures
 from comparisons.output.page.page import render
 from comparisons.studies.study import Run
 
 VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
-WAVY_WITHOUT_FIELD = {
-    "title": "Wavy",
-    "roller": {"radius": 10e-3, "rigid": True},
-    "body": {**STEEL, "thickness": 2e-3, "base": "frictionless"},
-    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
-    "load": {"hertz_peak_pressure": 1e9},
-}
 
 
 @dataclass
@@ -105,14 +98,8 @@ def drawn_by() -> Callable:
 
 
 @pytest.fixture(scope="session")
-def without_field() -> dict:
-    """A wavy layer without stresses, as tables."""
-    return WAVY_WITHOUT_FIELD
-
-
-@pytest.fixture(scope="session")
-def half_plane_outcome(finish: Callable[..., Run], without_field: dict) -> Run:
-    return finish(without_field, ("half_plane",))
+def half_plane_outcome(finish: Callable[..., Run]) -> Run:
+    return finish(WAVY_LAYER, ("half_plane",))
 
 
 @pytest.fixture(scope="session")

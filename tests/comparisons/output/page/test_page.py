@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-from scenes import with_fields
+from scenes import STEADY, WAVY_LAYER, with_fields
 
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.output.page.page import render
@@ -147,8 +147,8 @@ def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page
     assert "--models half-plane" in half_plane_page.text
 
 
-def test_fields_of_one_model_stand_without_a_difference(finish, smooth_tables, page_of):
-    page = page_of(render(finish(smooth_tables, ("half_plane",))))
+def test_fields_of_one_model_stand_without_a_difference(finish, page_of):
+    page = page_of(render(finish(STEADY, ("half_plane",))))
     assert page.count("Principal shear stress") == page.count("Orthogonal shear stress") == 1
     assert page.count("over depth") == 2
     assert "largest difference" not in page.text
@@ -173,9 +173,9 @@ def test_a_title_cannot_add_markup(smooth_outcome: Run, page_of, monkeypatch, no
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")  # of uncertainties that are infinite
-def test_the_page_of_a_field_of_full_size_stays_small(finish, without_field):
+def test_the_page_of_a_field_of_full_size_stays_small(finish):
     tables = {
-        **without_field,
+        **WAVY_LAYER,
         "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
         "stress": {"points": [600, 200], "depth": 1.0},
     }

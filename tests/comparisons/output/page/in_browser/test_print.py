@@ -5,6 +5,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
+from scenes import STEADY
 
 from comparisons.output.page.page import render
 from comparisons.output.page.pdf import NoPdfError, print_pdf, print_report
@@ -39,10 +40,10 @@ LEAST_LETTERS = 6.0  # points
 
 
 @pytest.fixture(scope="module")
-def levels_file(finish, smooth_tables, no_pictures, tmp_path_factory) -> Path:
+def levels_file(finish, no_pictures, tmp_path_factory) -> Path:
     """The words of the report of a run with as many levels as there are columns for."""
     page = tmp_path_factory.mktemp("levels") / "report.html"
-    outcome = finish({**smooth_tables, "resolution": {"levels": 6}})
+    outcome = finish({**STEADY, "resolution": {"levels": 6}})
     with patch("comparisons.output.page.page.draw", no_pictures):
         page.write_text(render(outcome), encoding="utf-8")
     return page

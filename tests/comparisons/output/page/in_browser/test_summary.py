@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from scenes import WAVY_LAYER
 
 from comparisons.output.page.summary import Report, cells_of, summary_page
 from comparisons.output.result_json import result_of
@@ -13,8 +14,8 @@ ENTER = 13
 
 
 @pytest.fixture(scope="module")
-def rows(wavy_outcome, smooth_outcome, finish, without_field) -> list[Report]:
-    layer = finish({**without_field, "title": "A <layer> & more"}, ("half_plane",))
+def rows(wavy_outcome, smooth_outcome, finish) -> list[Report]:
+    layer = finish({**WAVY_LAYER, "title": "A <layer> & more"}, ("half_plane",))
     results = map(result_of, (wavy_outcome, layer, smooth_outcome))
     return [Report(result, Path("report.html"), cells_of(result)) for result in results]
 
