@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from comparisons.common.tasks import Opens
     from comparisons.scenes.scene import Scene
+    from comparisons.scenes.surface import SceneSurface
     from comparisons.studies.study import Run
 
 
@@ -96,12 +97,7 @@ def run(
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
     if plan:
-        from comparisons.output.terminal import PLAIN
-        from comparisons.runs.run import planned
-
-        for line in planned(asked, surface, chosen):
-            print(line.translate(PLAIN))
-        return ExitStatus.DONE
+        return _say_plan(asked, surface, chosen)
     directory = out or RESULTS / asked.name
     check_writable(directory)
     if junit is not None:
@@ -118,13 +114,8 @@ def run(
     with progress() as callback:
         drawn = finish(solved, callback)
         if pdf and drawn:
-            from comparisons.output.page.pdf import NoPdfError, print_report
-
             callback("printing the report")
-            try:
-                print_report(directory)
-            except NoPdfError as error:  # the run is as good as any other
-                tell(str(error))
+            _print(directory)
     if junit is not None:
         from comparisons.output.junit import junit_xml, run_cases_of, write_junit
 
@@ -135,6 +126,26 @@ def run(
         first = f"{directory / 'report.html'}, result.json" if drawn else directory / "result.json"
         print(f"written: {first} and the fields beside it")
     return solved.exit_status
+
+
+def _say_plan(scene: "Scene", surface: "SceneSurface", models: tuple[str, ...]) -> int:
+    """What a run would do, and what it would take."""
+    from comparisons.output.terminal import PLAIN
+    from comparisons.runs.run import planned
+
+    for line in planned(scene, surface, models):
+        print(line.translate(PLAIN))
+    return ExitStatus.DONE
+
+
+def _print(directory: Path) -> None:
+    """Print the report; a run whose report no browser prints is as good as any other."""
+    from comparisons.output.page.pdf import NoPdfError, print_report
+
+    try:
+        print_report(directory)
+    except NoPdfError as error:
+        tell(str(error))
 
 
 def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | None:

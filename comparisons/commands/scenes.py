@@ -1,10 +1,10 @@
-"""Scene files: `crosscheck scenes` lists those that come along, `init` writes one for a measured
+"""Scene files: `crosscheck scenes` lists the shipped ones, `init` writes one for a measured
 profile, `deck` hands one to another code."""
 
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
@@ -19,6 +19,9 @@ from comparisons.commands.arguments import (
 )
 from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus, InputError
+
+if TYPE_CHECKING:
+    from comparisons.campaigns.init.show import FirstScene
 
 Code = Literal["calculix", "fenicsx"]
 # What no trace shows, by the option of `init`: those that stand for it, too, and what is asked.
@@ -103,7 +106,14 @@ def init(
     made = write_first_scene(profile, out, options, force, picture, ask)
     if as_json:
         show_json(made.as_dict())
-        return ExitStatus.DONE
+    else:
+        _say(made)
+    return ExitStatus.DONE
+
+
+def _say(made: "FirstScene") -> None:
+    """What was seen in the profile, the examples beside what was given, and the half-plane's answer
+    on the coarsest level."""
     from comparisons.campaigns.init.show import first_lines, init_table
     from comparisons.output.terminal import PLAIN
 
@@ -118,7 +128,6 @@ def init(
         print(f"assumed as examples, put in yours: {', '.join(assumed)}")
     for line in first_lines(made.scene):
         print(line.translate(PLAIN))
-    return ExitStatus.DONE
 
 
 def _asked(options: Mapping[str, str | int | None]) -> dict[str, str | int | None]:

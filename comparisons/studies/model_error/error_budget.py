@@ -105,12 +105,7 @@ def error_budget(
         except NotComputedError as error:
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
-                # the models' differences as they are
-                apart = [
-                    ModelError(r.quantity, r.friction, {}, 0.0, r.value, r.numerical, r.scale)
-                    for r in rows
-                ]
-                refined = RefinedEffects(0, apart, str(error), None)
+                refined = RefinedEffects(0, _unsplit(rows), str(error), None)
                 finest = solved.runs["finite_element"].finest
                 wholes = {mu: finest.under(mu) for mu in splits}
                 break
@@ -129,6 +124,13 @@ def error_budget(
         solutions=refined.solutions,
         took=_took(splits, variants),
     )
+
+
+def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
+    """The models' differences as they are."""
+    return [
+        ModelError(r.quantity, r.friction, {}, 0.0, r.value, r.numerical, r.scale) for r in rows
+    ]
 
 
 def _idle_flow(problem: Problem, refined: RefinedEffects, wholes: Iterable[Level]) -> Sizes | None:
