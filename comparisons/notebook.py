@@ -24,6 +24,7 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, models_named
+from comparisons.judging import study
 from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import (
     Row,
@@ -36,7 +37,6 @@ from comparisons.output.flat_csv import (
 from comparisons.output.page.plots import Plots
 from comparisons.output.result_json import Result, content_of, result_of
 from comparisons.scenes.scene import Scene, with_law, with_tolerance
-from comparisons.studies import study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -183,10 +183,10 @@ class FinishedRun(RecordedRun):
     def __repr__(self) -> str:
         """In ten lines: title, the verdict, the first figures and what to do next. A notebook
         shows the tables of the command line."""
-        from comparisons.output.headline import headline, verdicts
+        from comparisons.judging.model_error.show import model_error_rows
+        from comparisons.judging.verdict.headline import headline, verdicts
         from comparisons.output.page.tables.comparison import figure_rows
         from comparisons.output.terminal import SHORT
-        from comparisons.studies.model_error.show import model_error_rows
 
         run, said = self.outcome, headline(self.outcome)
         if run.plan.compares:

@@ -11,10 +11,10 @@ import numpy as np
 
 if TYPE_CHECKING:
     from comparisons.figures.figure import Figure
+    from comparisons.judging.study import Run
     from comparisons.models.level import Level
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
-    from comparisons.studies.study import Run
 
 PROJECT = Path(__file__).resolve().parents[1]
 DATA = PROJECT / "tests/data"
@@ -223,7 +223,7 @@ def without_cost(result: dict) -> dict:
 
 def unconverged(run: "Run", model: str) -> "Run":
     """A finished run whose model did not converge on its finest level."""
-    from comparisons.studies import contact
+    from comparisons.judging import contact
 
     levels_of = run.runs[model]
     solution = replace(levels_of.finest.solution, converged=False)
@@ -235,7 +235,7 @@ def unconverged(run: "Run", model: str) -> "Run":
 
 def budgeted(run: "Run", budget: object) -> "Run":
     """A finished run whose model errors are those of another error budget."""
-    from comparisons.studies.model_error.account import NAME, findings_of
+    from comparisons.judging.model_error.account import NAME, findings_of
 
     findings = findings_of(budget, run.problem)
     return replace(run, findings={**run.findings, NAME: findings})

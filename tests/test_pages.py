@@ -10,15 +10,15 @@ from scenes import PROJECT, page_rows
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
+from comparisons.judging.effects.catalogue import EFFECTS
+from comparisons.judging.effects.selection import SHARE_OF_TOLERANCE
+from comparisons.judging.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.notebook import run
 from comparisons.scenes.fields import allowed, file_fields
 from comparisons.scenes.finite_element import BLOCK
 from comparisons.scenes.profile import COMMON, VARIETIES
 from comparisons.scenes.scene import Scene, sections_of
 from comparisons.studies import STUDIES
-from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.studies.model_error.selection import SHARE_OF_TOLERANCE
 
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

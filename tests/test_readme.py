@@ -25,14 +25,14 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.contact import values_of
+from comparisons.judging.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
+from comparisons.judging.study import Run
 from comparisons.models.posing import problem_of
 from comparisons.output.terminal import SHORT
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Origin, Scene
-from comparisons.studies.contact import values_of
-from comparisons.studies.model_error.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
-from comparisons.studies.study import Run
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

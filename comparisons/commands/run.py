@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from comparisons.common.tasks import Opens
+    from comparisons.judging.study import Run
     from comparisons.scenes.scene import Scene
     from comparisons.scenes.surface import SceneSurface
-    from comparisons.studies.study import Run
 
 
 BOTH = ",".join(HYPHENATED.values())

@@ -18,6 +18,8 @@ from comparisons.common.numbers import is_whole
 PROJECT = Path(__file__).resolve().parents[2]
 # Folders and files whose code shapes a level of a scene.
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
+# What shapes figures, beside it.
+JUDGING_CODE = ("comparisons/figures", "comparisons/judging", "comparisons/studies")
 PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
 PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
 OTHER_NAMES = {"fenics-dolfinx": "dolfinx-solver-real"}  # of a wheel

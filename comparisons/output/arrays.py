@@ -21,10 +21,10 @@ import numpy as np
 from analytic.stress_state import StressState
 from comparisons.common.cache import decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
+from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.show import answers_of
-from comparisons.studies.study import Run
 
 FILE = "run.npz"
 SCHEMA = 1

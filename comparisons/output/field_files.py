@@ -20,10 +20,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import StressState
+from comparisons.judging.study import Run
 from comparisons.models.half_plane import stresses_at
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid

@@ -19,12 +19,13 @@ from comparisons.common.files import csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
+from comparisons.judging import contact
+from comparisons.judging.study import LADDER
+from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.record import read_result
 from comparisons.output.result_json import Result
 from comparisons.output.terminal import first_lines, plain_table, plain_text
-from comparisons.output.within import rounded_up
-from comparisons.studies import contact, meaning
-from comparisons.studies.study import LADDER
+from comparisons.studies import meaning
 
 if TYPE_CHECKING:
     from rich.console import Group

@@ -10,9 +10,9 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.figure import Figure, Verdict
-from comparisons.output.headline import headline
+from comparisons.judging.study import Run
+from comparisons.judging.verdict.headline import headline
 from comparisons.studies import meaning
-from comparisons.studies.study import Run
 
 Result = Literal["passed", "failure", "error", "skipped"]
 RESULTS: dict[Verdict, Result] = {

@@ -12,10 +12,10 @@ from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import as_written, significant, with_unit
+from comparisons.judging.study import Run
 from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
-from comparisons.studies.study import Run
 
 LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
 SOFTEST, STIFFEST = 1e3, 1.5e12  # [Pa] Young's modulus: gels, diamond

@@ -16,13 +16,13 @@ from analytic.surface.readers.files import MeasuredProfile
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import MOST_LEVELS, Levels, Problem
 from comparisons.output import result_json
 from comparisons.output.result_json import Result
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, ProfileInfo, SceneSurface, surface_of
-from comparisons.studies.study import MODEL_ERROR
 
 SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of levels
 # What is raised where a file is built otherwise than a run writes it.

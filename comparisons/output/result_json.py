@@ -28,10 +28,11 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
-from comparisons.output.headline import headline
-from comparisons.studies import contact, meaning
-from comparisons.studies.ladder.show import ESCALATE_TO, SUFFICES
-from comparisons.studies.study import LADDER, MODEL_ERROR, Run, deciding_friction
+from comparisons.judging import contact
+from comparisons.judging.ladder.show import ESCALATE_TO, SUFFICES
+from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
+from comparisons.judging.verdict.headline import headline
+from comparisons.studies import meaning
 
 SCHEMA = 3
 KINDS = {"scene": dict, "record": dict, "within": int | float | None, "within_words": str}

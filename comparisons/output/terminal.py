@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
+from comparisons.judging.ladder import cost
+from comparisons.judging.model_error.show import contributions, model_error_rows
+from comparisons.judging.study import MODEL_ERROR, Run
+from comparisons.judging.verdict.headline import headline, verdicts
 from comparisons.models.smooth import scale_words
-from comparisons.output.headline import headline, verdicts
 from comparisons.output.page.tables.comparison import (
     capped,
     comparison_rows,
@@ -17,9 +20,6 @@ from comparisons.output.page.tables.comparison import (
 from comparisons.output.page.tables.problem import surface_text
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
-from comparisons.studies.ladder import cost
-from comparisons.studies.model_error.show import contributions, model_error_rows
-from comparisons.studies.study import MODEL_ERROR, Run
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -11,6 +11,9 @@ import numpy as np
 
 from comparisons.common.progress import Stages, machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
+from comparisons.judging.comparison import discretisations
+from comparisons.judging.model_error.solutions import LEAST_LEVELS
+from comparisons.judging.study import Solved
 from comparisons.models.forecast import expected_level, with_one_more
 from comparisons.models.level import (
     ExpectedCost,
@@ -22,9 +25,6 @@ from comparisons.models.level import (
 from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
-from comparisons.studies.comparison import discretisations
-from comparisons.studies.model_error.solutions import LEAST_LEVELS
-from comparisons.studies.study import Solved
 from fem.solver.mumps import FemError
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement

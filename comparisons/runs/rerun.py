@@ -11,12 +11,12 @@ from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
+from comparisons.judging.study import CONVERGED, Run
 from comparisons.output.arrays import RunArrays
 from comparisons.output.record import Record, read_record
 from comparisons.output.result_json import Result, result_of
 from comparisons.output.terminal import STYLES, plain_table
 from comparisons.runs.run import Known, run
-from comparisons.studies.study import CONVERGED, Run
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

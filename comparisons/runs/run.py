@@ -16,6 +16,7 @@ from comparisons.common.files import unfinished
 from comparisons.common.processes import cores
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import (
+    JUDGING_CODE,
     LEVEL_CODE,
     digest,
     key_of,
@@ -33,6 +34,8 @@ from comparisons.common.tasks import (
     tasks_here,
 )
 from comparisons.figures.figure import Findings
+from comparisons.judging.model_error.study import selection_lines
+from comparisons.judging.study import Run, Solved, studied, unsolved
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
@@ -45,15 +48,13 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, scene_key, surface_of
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.model_error.study import selection_lines
-from comparisons.studies.study import Run, Solved, studied, unsolved
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
 # Modules that say what was solved. Those that draw it come afterwards: an answer waits for no page.
 ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 # What shapes levels, and the answers of studies that are kept beside them.
-CODE = (*LEVEL_CODE, "comparisons/studies")
+CODE = (*LEVEL_CODE, *JUDGING_CODE)
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
@@ -220,7 +221,8 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise
-    return Run(solved, findings, record_of(problem, solved.runs, _hashes(solved, findings)), out)
+    record = record_of(problem, solved.runs, _hashes(solved, findings))
+    return Run(solved, findings, record, out, STUDIES)
 
 
 def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:

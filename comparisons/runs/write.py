@@ -14,12 +14,12 @@ from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
 from comparisons.drawing.style import load_matplotlib
+from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
 from comparisons.output.result_json import content_of, result_of
 from comparisons.studies import STUDIES
-from comparisons.studies.study import Run
 from meshes.block import BlockMesh
 
 PAGE = "comparisons.output.page.page"  # loaded while copies write the fields

@@ -9,7 +9,7 @@ from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.studies.study import Solved, Study
+from comparisons.judging.study import Solved, Study
 
 NAME = "checks"
 QUANTITIES = {

@@ -9,11 +9,11 @@ from dataclasses import asdict, replace
 from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging import contact
+from comparisons.judging.effects.catalogue import with_effects
+from comparisons.judging.study import MODEL_ERROR, Solved, Study
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.forecast import forecast
-from comparisons.studies import contact
-from comparisons.studies.model_error.catalogue import with_effects
-from comparisons.studies.study import MODEL_ERROR, Solved, Study
 
 NAME, ASSUMED = "problem", "assumed"  # the study; its statements of what models assume
 HERTZ, SCENE, PRESSED, STANDARD = "hertz", "scene", "as pressed", "standard"  # sources

@@ -18,10 +18,10 @@ from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.uncertainty import iteration, numerical
+from comparisons.judging import contact
+from comparisons.judging.study import Run, Solved, Study
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
-from comparisons.studies import contact
 from comparisons.studies.friction import partial_slip
-from comparisons.studies.study import Run, Solved, Study
 
 NAME = "published"
 LOWERED = Quantity("lowering of the surface under the roller", "m", formal_order=2.0)

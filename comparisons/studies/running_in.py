@@ -14,11 +14,11 @@ from comparisons.drawing.blocks import Block, Pictures
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.figure import Column, Findings, Series, Statement, figures_of
 from comparisons.figures.quantity import Quantity
+from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.running_in import ended
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.problem import QUANTITIES as OF_SURFACES
-from comparisons.studies.study import Run, Solved, Study
 
 NAME = "running_in"
 POINTS = 4000  # along x; the picture is not finer

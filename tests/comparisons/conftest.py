@@ -31,6 +31,7 @@ from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.judging.study import Run, Solved, studied
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -40,7 +41,6 @@ from comparisons.output.page import page
 from comparisons.output.page.page import PICTURES
 from comparisons.output.record import record_of
 from comparisons.studies import STUDIES
-from comparisons.studies.study import Run, Solved, studied
 from meshes.block import BlockMesh, BlockSpec
 
 # What fails on a page fails its test; those of what a failure costs say so.
@@ -153,12 +153,12 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     resolved_all = "every judged quantity is resolved"
     solved = Solved(problem, plan, window, runs, resolved_all)
     sizes = dict.fromkeys(QUANTITIES, SAMPLING)
-    with patch("comparisons.studies.model_error.sampling.sampling_changes", lambda *_: sizes):
+    with patch("comparisons.judging.effects.sampling.sampling_changes", lambda *_: sizes):
         findings = studied(STUDIES, solved, {}, Tasks())
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }
-    return Run(solved, findings, record_of(problem, runs, hashes), Path("results/made"))
+    return Run(solved, findings, record_of(problem, runs, hashes), Path("results/made"), STUDIES)
 
 
 @pytest.fixture(scope="session")

@@ -35,7 +35,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import LEVEL_CODE, as_json, versions
+from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
 from comparisons.drawing.style import svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.models.problem import Problem
@@ -52,7 +52,7 @@ SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
 # What shapes the answer at a point, beside versions of libraries.
-CODE = (*LEVEL_CODE, "comparisons/figures", "comparisons/studies", "comparisons/campaigns/grid.py")
+CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/campaigns/grid.py")
 CODE += tuple(f"comparisons/campaigns/maps/{n}" for n in ("groups.py", "groups.toml", "point.py"))
 
 

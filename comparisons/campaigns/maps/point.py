@@ -13,14 +13,14 @@ from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.comparison import differences_of
+from comparisons.judging.contact import values_of
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
-from comparisons.studies.comparison import differences_of
-from comparisons.studies.contact import values_of
 from meshes.block import MeshError
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows

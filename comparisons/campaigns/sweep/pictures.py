@@ -13,10 +13,10 @@ from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.drawing import style
 from comparisons.drawing.curves import distinct, over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.judging import contact
 from comparisons.scenes.scene import dimension_of
-from comparisons.studies import contact
-from comparisons.studies.subsurface import quiescent_zone
-from comparisons.studies.subsurface.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
+from comparisons.studies import quiescent_zone
+from comparisons.studies.quiescent_zone import BRIDGED, QUIESCENT, SMOOTH, UNCLEAR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

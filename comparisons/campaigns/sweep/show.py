@@ -12,11 +12,12 @@ from comparisons.campaigns.sweep.pictures import DRAWN, PICTURE, POSITION, ZONES
 from comparisons.campaigns.sweep.sweep import SWEEP, TABLE
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.quantity import QUANTITIES, error_text
+from comparisons.judging import contact
+from comparisons.judging.study import MODEL_ERROR
+from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.flat_csv import Row
 from comparisons.output.terminal import PLAIN, plain_table, plain_text
-from comparisons.output.within import rounded_up
-from comparisons.studies import contact, quantity_of
-from comparisons.studies.study import MODEL_ERROR
+from comparisons.studies import quantity_of
 
 if TYPE_CHECKING:
     from rich.console import Group

@@ -19,10 +19,12 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import LEVEL_CODE, as_json, versions
+from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
+from comparisons.judging import contact
+from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.posing import problem_of
 from comparisons.models.window import window_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
@@ -31,11 +33,9 @@ from comparisons.output.result_json import result_of
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments, dimension_of
 from comparisons.scenes.surface import surface_of
-from comparisons.studies import contact
+from comparisons.studies import quiescent_zone
 from comparisons.studies.friction import PARTIAL_SLIP
 from comparisons.studies.heat import STUDY as HEAT
-from comparisons.studies.study import MODEL_ERROR
-from comparisons.studies.subsurface import quiescent_zone
 from meshes.block import MeshError
 
 SWEEP, TABLE = "sweep.json", "sweep.csv"
@@ -45,7 +45,7 @@ MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 # What shapes the answer at a point, beside versions of libraries.
-CODE = (*LEVEL_CODE, *(f"comparisons/{name}" for name in ("figures", "studies", "output")))
+CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/output")
 CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
 NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)

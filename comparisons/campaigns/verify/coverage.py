@@ -16,8 +16,8 @@ import numpy as np
 from comparisons.campaigns.cases import CaseFigures, Row, bounded, holds, order_figure, summary_row
 from comparisons.figures.figure import Figure, Part
 from comparisons.figures.uncertainty import COVERAGE
-from comparisons.studies import contact
-from comparisons.studies.study import MODEL_ERROR
+from comparisons.judging import contact
+from comparisons.judging.study import MODEL_ERROR
 
 LEAST_COVERAGE = COVERAGE
 # Median of stated uncertainty over true error, of all figures and of rough contacts: with few

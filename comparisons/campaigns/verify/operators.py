@@ -33,7 +33,7 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution, numerical
-from comparisons.studies import contact
+from comparisons.judging import contact
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge

@@ -34,6 +34,10 @@ from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import numerical
+from comparisons.judging import contact
+from comparisons.judging.comparison import relative_l2
+from comparisons.judging.contact import values_of
+from comparisons.judging.study import MODEL_ERROR, unsolved
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -43,10 +47,6 @@ from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
-from comparisons.studies import contact
-from comparisons.studies.comparison import relative_l2
-from comparisons.studies.contact import values_of
-from comparisons.studies.study import MODEL_ERROR, unsolved
 
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5)  # the last two shear the surface most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)

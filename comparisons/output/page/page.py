@@ -22,7 +22,8 @@ from comparisons.drawing.blocks import (
 from comparisons.drawing.style import drawing, load_matplotlib
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.output.headline import headline
+from comparisons.judging.study import Run
+from comparisons.judging.verdict.headline import headline
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
@@ -31,7 +32,6 @@ from comparisons.output.page.tables.comparison import comparison_table, figure_t
 from comparisons.output.page.tables.problem import facts, problem_items
 from comparisons.studies import STUDIES
 from comparisons.studies import problem as asked
-from comparisons.studies.study import Run
 
 # Each gives one picture, a list, or None where it does not apply; about the longest first.
 PICTURES: dict[str, Callable[[Run], object]] = {

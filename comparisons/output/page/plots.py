@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import listed
 from comparisons.drawing.style import collected_figures
+from comparisons.judging.study import Run
 from comparisons.output.page.page import PICTURES
 from comparisons.output.page.pictures.stresses import COMPONENTS
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -16,13 +16,14 @@ from comparisons.common.numbers import percent, percent_as_written, significant,
 from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import Findings, grouped
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
+from comparisons.judging import contact
+from comparisons.judging.study import MODEL_ERROR
+from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
 from comparisons.output.record import BUILT_OTHERWISE, read_result
 from comparisons.output.result_json import Result
-from comparisons.output.within import rounded_up
-from comparisons.studies import contact, problem
-from comparisons.studies.study import MODEL_ERROR
+from comparisons.studies import problem
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -1,8 +1,8 @@
 """Answers from outside: any code's pressures and stresses, or measured ones, beside the models'."""
 
+from comparisons.judging.study import Study
 from comparisons.studies.answers import show
 from comparisons.studies.answers.study import NAME, QUANTITIES, begin, solve
-from comparisons.studies.study import Study
 
 STUDY = Study(
     name=NAME,
@@ -12,4 +12,5 @@ STUDY = Study(
     begin=begin,
     blocks=show.blocks,
     pictures={"answers": show.answer_pictures},
+    verdicts=show.verdicts,
 )

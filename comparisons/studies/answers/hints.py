@@ -15,11 +15,11 @@ from analytic.contact.problem import ContactError
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import surface
+from comparisons.judging.comparison import relative_l2
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
-from comparisons.studies.comparison import relative_l2
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
 EXPLAINS = 0.25  # of it: what an explanation may leave

@@ -32,10 +32,10 @@ from comparisons.drawing.curves import COINCIDE, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figure, Series, nearest_to_tolerance
 from comparisons.figures.quantity import COMPARED, LABELS, label
-from comparisons.studies import contact
+from comparisons.judging import contact
+from comparisons.judging.study import Run
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.study import CONDITIONS, HINTS, NAME, VALIDATION
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,6 +71,11 @@ def blocks(run: Run) -> list[Block]:
         if (measured := run.findings[NAME].table(VALIDATION, name)) is not None:
             items.append(partial(_validation_table, measured=measured))
     return [Block("answers", (*items, Note(NOTE)), "Answers from outside")]
+
+
+def verdicts(run: Run) -> list[tuple[str, str]]:
+    """One on each answer."""
+    return [answer_verdict(run, name) for name in answers_of(run)]
 
 
 def answer_verdict(run: Run, answer: str) -> tuple[str, str]:

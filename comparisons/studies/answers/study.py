@@ -37,16 +37,16 @@ from comparisons.figures.uncertainty import (
     length_resolution,
     peak_resolution,
 )
+from comparisons.judging.comparison import norms, pair_norms, relative_differences
+from comparisons.judging.contact import by_repetition, uncertainties, values_of
+from comparisons.judging.study import SCATTER, Solved
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.conditions import conditions, operators_of
 from comparisons.studies.answers.hints import hints
-from comparisons.studies.comparison import norms, pair_norms, relative_differences
-from comparisons.studies.contact import by_repetition, uncertainties, values_of
 from comparisons.studies.scatter.study import by_inputs
-from comparisons.studies.study import SCATTER, Solved
 
 NAME = "answers"
 CONDITIONS, HINTS, VALIDATION = "contact conditions", "hints", "validation"  # series

@@ -1,8 +1,8 @@
 """What friction does by itself: surfaces that it moves, and contacts that it holds."""
 
+from comparisons.judging.study import Study
 from comparisons.studies.friction import show
 from comparisons.studies.friction.partial_slip import NAME, QUANTITIES, solve
-from comparisons.studies.study import Study
 
 PARTIAL_SLIP = Study(
     name=NAME,

@@ -23,12 +23,12 @@ from comparisons.figures.uncertainty import (
     numerical,
     of_increments,
 )
+from comparisons.judging.study import CONVERGED, WHY_NOT, Solved
 from comparisons.models.level import Level
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import SlippedLevel, half_plane_slip
 from comparisons.studies.friction.outside import outside_figures
-from comparisons.studies.study import CONVERGED, WHY_NOT, Solved
 
 NAME = "partial_slip"
 QUANTITIES = {

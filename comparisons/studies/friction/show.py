@@ -18,9 +18,9 @@ from comparisons.drawing.curves import (
     panels,
 )
 from comparisons.figures.quantity import LABELS, MODELS
+from comparisons.judging.study import WHY_NOT, Run
 from comparisons.studies.friction.half_planes import SlippedLevel, last_visit
 from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
-from comparisons.studies.study import WHY_NOT, Run
 
 NOTE = """Tractions at the end of the path of loads, at the scene's largest friction coefficient:
 where the surfaces stick |q| < μp, where they slip |q| = μp. Of alike half-planes q is the

@@ -1,8 +1,8 @@
 """The heat of friction: flash temperatures by both models, and the verdict on their difference."""
 
+from comparisons.judging.study import Study
 from comparisons.studies.heat import show
 from comparisons.studies.heat.study import NAME, QUANTITIES, begin, solve
-from comparisons.studies.study import Study
 
 STUDY = Study(
     name=NAME,

@@ -21,9 +21,9 @@ from comparisons.drawing.curves import draw, legend_above, names_above, over, pa
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
+from comparisons.judging.study import Run
 from comparisons.studies.heat.half_space import HEATED, WITHOUT, reach_of
 from comparisons.studies.heat.study import COMPARED, NAME, OTHER_PRESSURES, QUANTITIES
-from comparisons.studies.study import Run
 
 HEIGHT = 1.9  # inches, of a field
 RULES = {

@@ -16,6 +16,7 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
 from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration, peak_resolution
+from comparisons.judging.study import Solved
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -32,7 +33,6 @@ from comparisons.studies.heat.half_space import (
     peclet_numbers,
     what_it_contains,
 )
-from comparisons.studies.study import Solved
 
 NAME = "heat"
 QUANTITIES = {

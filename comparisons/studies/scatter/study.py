@@ -27,6 +27,9 @@ from comparisons.drawing.blocks import Block, Note, TextTable, table_rows
 from comparisons.figures.figure import Figure, Findings, SampleSpread, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging.contact import values_of
+from comparisons.judging.study import SCATTER as NAME
+from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.approach import load_on_layer
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.posing import problem_of
@@ -35,10 +38,7 @@ from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
 from comparisons.scenes.surface import SceneSurface
-from comparisons.studies.contact import values_of
 from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
-from comparisons.studies.study import MODEL_ERROR, Run, Solved, Study
-from comparisons.studies.study import SCATTER as NAME
 
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
 DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
@@ -305,13 +305,12 @@ def lines(run: Run) -> list[tuple[str, str]]:
     return said
 
 
-def beside_inputs(run: Run, quantity: str, friction: float) -> str:
-    """How the model error of a figure compares with what inputs do to it; "" if one is unknown."""
-    figure, error = (
-        run.figures.one(study=study, quantity=quantity, friction=friction)
-        for study in (NAME, MODEL_ERROR)
-    )
-    if figure is None or error is None:
+def remark(run: Run, error: Figure) -> str:
+    """How a model error compares with what inputs do to its figure, where that is more than its
+    tolerance: a model error below that is not what a user would see first."""
+    quantity = error.quantity
+    figure = run.figures.one(study=NAME, quantity=quantity, friction=error.friction)
+    if figure is None or by_inputs(figure) <= error.tolerance:
         return ""
     size, moved = abs(error.value), by_inputs(figure)
     if size + error.numerical < SMALL * moved:
@@ -335,4 +334,5 @@ STUDY = Study(
     begin=begin,
     blocks=blocks,
     lines=lines,
+    remark=remark,
 )

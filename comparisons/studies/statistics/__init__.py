@@ -1,8 +1,8 @@
 """Theories of rough contact beside the solved one, and how its asperities are penetrated."""
 
+from comparisons.judging.study import Study
 from comparisons.studies.statistics import show
 from comparisons.studies.statistics.study import NAME, begin, solve
-from comparisons.studies.study import Study
 
 STUDY = Study(
     name=NAME,

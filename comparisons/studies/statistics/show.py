@@ -10,8 +10,8 @@ from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import legend_above, names_above, over, panels
 from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
+from comparisons.judging.study import Run
 from comparisons.studies.statistics.study import FIGURES, NAME, PRESSURE
-from comparisons.studies.study import Run
 
 KINDS = {"elastic": "#0072B2", "plastic": "#E69F00", "cutting": "#D55E00"}
 FLOWS = 1e-6  # equivalent plastic strain

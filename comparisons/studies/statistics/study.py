@@ -46,11 +46,11 @@ from analytic.surface.synthetic import same_spectrum
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.figure import Column, Findings, Series, columns_of
+from comparisons.judging import contact
+from comparisons.judging.study import Solved
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import STRAIN, Level, MeshField, refuse_too_large
 from comparisons.models.problem import Problem
-from comparisons.studies import contact
-from comparisons.studies.study import Solved
 
 if TYPE_CHECKING:
     from analytic.statistics.rough_bodies import RoughContact

@@ -7,7 +7,7 @@ import pytest
 from comparisons.figures.figure import Column, Figure, Findings, Part, Series, Statement
 from comparisons.figures.moved import items_of, movement
 from comparisons.figures.uncertainty import Uncertainty, numerical
-from comparisons.studies.study import Run
+from comparisons.judging.study import Run
 
 OTHER = {"scene.load.per_length": 1e5, "verdict": "inconclusive"}
 PEAK = Figure(

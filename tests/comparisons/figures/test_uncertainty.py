@@ -12,16 +12,16 @@ from comparisons.figures.uncertainty import (
     length_resolution,
     peak_resolution,
 )
-from comparisons.models.level import ModelRun
-from comparisons.studies.comparison import (
+from comparisons.judging.comparison import (
     SHOWN,
     compared,
     differences_of,
     discretisations,
     relative_resolution,
 )
-from comparisons.studies.contact import uncertainties
-from comparisons.studies.study import Run
+from comparisons.judging.contact import uncertainties
+from comparisons.judging.study import Run
+from comparisons.models.level import ModelRun
 
 
 def of_pressures(run: ModelRun, levels: tuple, factors: tuple[float, ...]) -> ModelRun:

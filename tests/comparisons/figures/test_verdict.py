@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scenes import judged
 
 from comparisons.figures.figure import is_within, judge
-from comparisons.output.headline import validity
+from comparisons.judging.verdict.headline import validity
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
 

@@ -9,9 +9,9 @@ import pytest
 from scenes import STEEL, half_plane_at, run_of
 from scipy.optimize import root
 
+from comparisons.judging.contact import uncertainties
 from comparisons.models.crest import RESOLVED
 from comparisons.models.problem import Levels
-from comparisons.studies.contact import uncertainties
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 # Ridges as (slopes to the left and right, half of the flat top, half the distance of two of them,

@@ -7,13 +7,13 @@ from scenes import PROJECT, STEEL, changed, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import Solved
 from comparisons.models.forecast import forecast
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.runs.refinement import refined
 from comparisons.scenes.scene import Scene
-from comparisons.studies.study import Solved
 
 DOCS = PROJECT / "comparisons" / "docs"
 TABLES = {

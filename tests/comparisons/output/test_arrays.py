@@ -11,10 +11,10 @@ import pytest
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.progress import no_progress
+from comparisons.judging.study import Run
 from comparisons.models.level import deformed_height
 from comparisons.output.arrays import COMPONENTS, FILE, RunArrays
 from comparisons.runs.write import write_files
-from comparisons.studies.study import Run
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ from scenes import refound, unconverged
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
+from comparisons.judging.study import Run
 from comparisons.output.junit import junit_xml, run_cases_of
-from comparisons.studies.study import Run
 
 # As the schema that Jenkins, GitLab and GitHub's reporters read has them, in this order.
 RESULTS = ("failure", "error", "skipped")

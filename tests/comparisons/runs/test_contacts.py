@@ -7,9 +7,9 @@ import re
 import pytest
 from scenes import DATA, PROJECT, asked_in_python, run_of
 
+from comparisons.judging.verdict.headline import headline, kind_of
+from comparisons.judging.verdict.within import within_of
 from comparisons.models.posing import problem_of
-from comparisons.output.headline import headline, kind_of
-from comparisons.output.within import within_of
 from comparisons.scenes.scene import Scene, with_tolerance
 
 CONTACTS = sorted((DATA / "contacts").glob("*.toml"))

@@ -7,11 +7,11 @@ from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 from analytic.layers.layered import LayeredBody, normal_compliance
 from comparisons.common.errors import ExitStatus, SceneError
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.contact import uncertainties, values_of
 from comparisons.models.smooth import closed_form
 from comparisons.output.page.pictures.contact import surface_picture
 from comparisons.output.page.tables.problem import problem_sheet
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.contact import uncertainties, values_of
 
 PERIOD, AMPLITUDE = 0.5e-3, 0.2e-6
 WAVE = {

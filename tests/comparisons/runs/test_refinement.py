@@ -10,12 +10,12 @@ from scenes import SMOOTH, problem
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import Solved
 from comparisons.models.finite_element import level
 from comparisons.models.half_plane import expected_with, half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
-from comparisons.studies.study import Solved
 from fem.solver.mumps import FemError
 
 

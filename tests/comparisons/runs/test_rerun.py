@@ -16,12 +16,12 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import MODEL_ERROR
 from comparisons.output.page.tables.verification import commands
 from comparisons.output.record import read_result
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
-from comparisons.studies.study import MODEL_ERROR
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -87,7 +87,7 @@ def whole_levels(findings) -> int:
 def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeypatch):
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
-    monkeypatch.setattr("comparisons.studies.model_error.refinement._settled", lambda *_: False)
+    monkeypatch.setattr("comparisons.judging.model_error.refinement._settled", lambda *_: False)
     assert whole_levels(read_result(both / "result.json").findings) == 2
     before = contents(both)
     repetition = rerun(both)

@@ -15,15 +15,15 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Early, Lasting
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import unsolved
+from comparisons.judging.verdict.headline import kind_of
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
-from comparisons.output.headline import kind_of
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of, result_of
 from comparisons.runs.run import level_cache, planned, run, solve
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.study import unsolved
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 

@@ -10,6 +10,7 @@ from comparisons.common.numbers import decimal, significant
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import length_resolution
+from comparisons.judging.contact import uncertainties, values_of
 from comparisons.models.finite_element.cost import expected, flow_increments
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
@@ -19,7 +20,6 @@ from comparisons.models.plan import make_plan
 from comparisons.output.page.pictures.stresses import plastic_strain_pictures
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
-from comparisons.studies.contact import uncertainties, values_of
 from fem.solver.mumps import FemError
 
 pytestmark = pytest.mark.usefixtures("undrawn")

@@ -10,17 +10,17 @@ from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import Stages
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.contact import values_of
+from comparisons.judging.model_error.show import not_modelled_line
+from comparisons.judging.verdict.headline import kind_of
+from comparisons.judging.verdict.within import rounded_up, within_of
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
-from comparisons.output.headline import kind_of
-from comparisons.output.within import rounded_up, within_of
 from comparisons.scenes.scene import Scene
-from comparisons.studies.contact import values_of
-from comparisons.studies.model_error.show import not_modelled_line
 
 FEW = Levels(3, effects=2)
 

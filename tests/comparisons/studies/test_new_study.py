@@ -26,7 +26,7 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Statement
 from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
-from comparisons.studies.study import Study
+from comparisons.judging.study import Study
 
 NAME = "mean_pressure"
 QUANTITIES = {

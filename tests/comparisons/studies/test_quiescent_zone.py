@@ -8,9 +8,9 @@ from scenes import STEADY, STEEL, half_plane_at, problem, run_of
 from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
+from comparisons.judging.study import WHY_NOT
 from comparisons.models.window import window_of
-from comparisons.studies.study import WHY_NOT
-from comparisons.studies.subsurface import quiescent_zone as q
+from comparisons.studies import quiescent_zone as q
 
 Z = np.linspace(0.0, 1.0, 101) ** 2
 RIPPLE = 0.04 * np.cos(400.0 * Z) * np.exp(-((Z / 0.03) ** 2))  # near the surface, no zone's

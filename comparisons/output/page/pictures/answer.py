@@ -10,9 +10,9 @@ from comparisons.drawing import style
 from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_field
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, label
+from comparisons.judging.contact import draw_pressures, seen
+from comparisons.judging.study import Run
 from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
-from comparisons.studies.contact import draw_pressures, seen
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

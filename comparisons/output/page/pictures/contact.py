@@ -15,10 +15,10 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import COINCIDE, FOOT, LEFT, distinct, draw, over, panels
 from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
+from comparisons.judging.contact import closed, draw_pressures, peak_position, seen
+from comparisons.judging.study import COMPARISON, Run
 from comparisons.models.level import deformed_height
 from comparisons.models.problem import mean_height
-from comparisons.studies.contact import closed, draw_pressures, peak_position, seen
-from comparisons.studies.study import COMPARISON, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

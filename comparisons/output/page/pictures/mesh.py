@@ -11,8 +11,8 @@ import numpy as np
 from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.drawing.curves import panels
 from comparisons.drawing.style import THIRD, Picture, picture
-from comparisons.studies.contact import peak_position, seen
-from comparisons.studies.study import Run
+from comparisons.judging.contact import peak_position, seen
+from comparisons.judging.study import Run
 from meshes.block import real_points, unique_edges
 
 if TYPE_CHECKING:

@@ -7,11 +7,11 @@ import numpy as np
 from comparisons.common.numbers import as_written, listed, plain, scale_of, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.curves import load_text
+from comparisons.judging.study import Run
 from comparisons.models.assumptions import yielding_text
 from comparisons.models.problem import Problem
 from comparisons.output.page.tables.problem import coating_text, elastic_text
 from comparisons.scenes.scene import Scene
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,8 +11,8 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import columns, joint_legend
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
+from comparisons.judging.study import Run
 from comparisons.output.page.tables.verification import DIFFERENCE, JudgedSequence, judged_sequences
-from comparisons.studies.study import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

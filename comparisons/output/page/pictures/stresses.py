@@ -22,12 +22,12 @@ from comparisons.drawing.curves import (
 )
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
+from comparisons.judging.contact import peak_position
+from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.models.level import STRAIN
 from comparisons.models.smooth import closed_form
-from comparisons.studies.contact import peak_position
-from comparisons.studies.study import MODEL_ERROR, Run
-from comparisons.studies.subsurface.quiescent_zone import NAME as ZONE
-from comparisons.studies.subsurface.quiescent_zone import zones_of
+from comparisons.studies.quiescent_zone import NAME as ZONE
+from comparisons.studies.quiescent_zone import zones_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

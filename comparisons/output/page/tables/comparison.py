@@ -7,11 +7,11 @@ from comparisons.common.numbers import Scale, percent, with_unit
 from comparisons.drawing.blocks import TableRow, TextTable, compared_cells, table_rows
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import COMPARED, HYPHENATED, NORMS, QUANTITIES, label
+from comparisons.judging import contact
+from comparisons.judging.effects.catalogue import EFFECTS
+from comparisons.judging.study import LAYERED, MODEL_ERROR, Run
 from comparisons.models.problem import Problem
 from comparisons.models.smooth import scale_words
-from comparisons.studies import contact
-from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.study import LAYERED, MODEL_ERROR, Run
 
 SAME_PROBLEM = "the same problem"
 

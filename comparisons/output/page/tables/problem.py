@@ -16,13 +16,13 @@ from comparisons.common.numbers import (
 )
 from comparisons.drawing.blocks import Heading, Names, TextTable
 from comparisons.drawing.curves import hertz_text
+from comparisons.judging.study import Run
 from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import CoatingSection, ElasticSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
-from comparisons.studies.study import Run
 
 LOADS = {  # by kind: in words, and the unit
     "per_length": ("load per length", "N/m"),

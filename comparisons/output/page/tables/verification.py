@@ -39,10 +39,11 @@ from comparisons.figures.quantity import (
     label,
 )
 from comparisons.figures.uncertainty import COVERAGE
+from comparisons.judging import comparison, contact
+from comparisons.judging.effects.sampling import EFFECT as SAMPLING
+from comparisons.judging.study import Run
 from comparisons.models.level import ModelRun
-from comparisons.studies import checks, comparison, contact
-from comparisons.studies.model_error.sampling import EFFECT as SAMPLING
-from comparisons.studies.study import Run
+from comparisons.studies import checks
 
 ALL_LEVELS = "all levels together: time"
 DIFFERENCE = "difference"  # of both models, in place of one

@@ -20,7 +20,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty, numerical
-from comparisons.studies.study import MODEL_ERROR
+from comparisons.judging.study import MODEL_ERROR
 
 KNOWN = Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone")
 

@@ -9,11 +9,11 @@ from scenes import STEEL, changed, finite_elements, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
+from comparisons.judging.effects.estimates import estimates
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
-from comparisons.studies.model_error.estimates import estimates
 from tests.finite_strain_check.figures import figures
 from tests.finite_strain_check.solve import HUB, OPPOSITE, RING, Task, solutions
 

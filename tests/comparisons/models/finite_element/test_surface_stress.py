@@ -10,11 +10,11 @@ from scenes import STEEL, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import unsolved
 from comparisons.models.finite_element.stress import stresses_of
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
-from comparisons.studies.study import unsolved
 
 FRICTION = 0.5
 TABLES = {

@@ -12,13 +12,13 @@ from analytic.exact.hertz import HertzContact
 from analytic.profile import Profile
 from analytic.running_in import RunIn, run_in
 from analytic.surface.roughness import roughness
+from comparisons.judging.study import Run
 from comparisons.models.posing import problem_of
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.record import read_result
 from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
-from comparisons.studies.study import Run
 
 
 def run_in_of(scene: Scene) -> SceneSurface:

@@ -10,12 +10,12 @@ from scenes import posed, refound
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import Run
+from comparisons.judging.verdict.headline import headline
 from comparisons.models.plan import make_plan
-from comparisons.output.headline import headline
 from comparisons.output.page.page import render
 from comparisons.output.result_json import content_of, result_of
 from comparisons.studies.running_in import lines, picture, running_in_in_words
-from comparisons.studies.study import Run
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 

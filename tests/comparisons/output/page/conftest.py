@@ -9,8 +9,8 @@ from matplotlib import pyplot
 from scenes import WAVY_LAYER
 
 from comparisons.drawing.style import collected_figures
+from comparisons.judging.study import Run
 from comparisons.output.page.page import render
-from comparisons.studies.study import Run
 
 VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
 

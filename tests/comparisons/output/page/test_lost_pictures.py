@@ -11,9 +11,9 @@ from scenes import PROJECT
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.drawing import blocks, style
+from comparisons.judging import yielding
 from comparisons.output.page import page
 from comparisons.output.page.tables import verification
-from comparisons.studies.subsurface import yielding
 
 RUN = ["run", "smooth", "--models", "half-plane", "--out", "out"]
 FILES = {"half_plane", "record.json", "result.json", "run.npz"}

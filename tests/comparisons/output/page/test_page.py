@@ -9,9 +9,9 @@ import pytest
 from scenes import STEADY, WAVY_LAYER, with_fields
 
 from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.judging.model_error.show import waterfalls
+from comparisons.judging.study import Run
 from comparisons.output.page.page import render
-from comparisons.studies.model_error.show import waterfalls
-from comparisons.studies.study import Run
 
 ROOT = "{http://www.w3.org/2000/svg}"
 SECTIONS = ["model-error", "comparison", "contact", "stresses", "yield"]

@@ -10,11 +10,11 @@ from scenes import PROJECT, refound
 
 from comparisons.cli import app
 from comparisons.figures.quantity import COMPARED, MODELS, label
+from comparisons.judging import contact
+from comparisons.judging.study import Run
 from comparisons.output.page.page import render
 from comparisons.output.page.tables.comparison import capped as limited
 from comparisons.output.page.tables.comparison import comparison_rows, reference_of
-from comparisons.studies import contact
-from comparisons.studies.study import Run
 
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
 UNITS |= {"nm": 1e-9, "%": 1e-2, "": 1.0}

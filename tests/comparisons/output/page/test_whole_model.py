@@ -7,12 +7,12 @@ import pytest
 from scenes import budgeted
 
 from comparisons.common.progress import no_progress
+from comparisons.judging.study import Run
 from comparisons.output.arrays import RunArrays
 from comparisons.output.page.pictures.contact import pressure_picture
 from comparisons.output.page.pictures.stresses import field_pictures, section_pictures
 from comparisons.output.page.plots import Plots
 from comparisons.runs.write import write_files
-from comparisons.studies.study import Run
 
 MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
 

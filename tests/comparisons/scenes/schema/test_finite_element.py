@@ -9,11 +9,11 @@ from analytic.material import Law
 from analytic.material.hardening import Hardening
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import Solved
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.studies.problem import assumed
-from comparisons.studies.study import Solved
 
 ELASTIC = {
     "roller": {"radius": 8e-3, **STEEL},

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scenes import QUICK, problem, resolved
 
+from comparisons.judging.study import Run
 from comparisons.runs.run import run
-from comparisons.studies.study import Run
 
 
 @pytest.fixture(scope="session")

@@ -10,6 +10,7 @@ from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import unsolved
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.output.flat_csv import rows_of
@@ -20,7 +21,6 @@ from comparisons.studies.friction.finite_elements import finite_element_slip
 from comparisons.studies.friction.half_planes import half_plane_slip
 from comparisons.studies.friction.partial_slip import COMPARED, solvers
 from comparisons.studies.friction.show import slip_facts
-from comparisons.studies.study import unsolved
 
 SMOOTH = {
     "roller": {"radius": 8e-3, **STEEL},

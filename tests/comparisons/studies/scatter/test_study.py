@@ -15,6 +15,7 @@ from comparisons.cli import main
 from comparisons.common.cache import Cache
 from comparisons.common.executors import ExecutorWorker
 from comparisons.common.tasks import Tasks
+from comparisons.judging.study import unsolved
 from comparisons.models.level import ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
@@ -22,7 +23,6 @@ from comparisons.scenes.studies.scatter import Spread
 from comparisons.scenes.surface import surface_of
 from comparisons.studies.scatter.shares import designs
 from comparisons.studies.scatter.study import begin, by_inputs, sampled, solve, values_at
-from comparisons.studies.study import unsolved
 
 INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
 SCENE = changed(SMOOTH, scatter=INPUTS | {"samples": 64, "seed": 3})

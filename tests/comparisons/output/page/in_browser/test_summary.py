@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from scenes import WAVY_LAYER
 
+from comparisons.judging.study import Run
 from comparisons.output.page.summary import Report, cells_of, summary_page
 from comparisons.output.result_json import result_of
-from comparisons.studies.study import Run
 
 ENTER = 13
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from comparisons.judging.study import Run
 from comparisons.output.page.page import PICTURES, drawn_of
-from comparisons.studies.study import Run
 
 
 @pytest.fixture(scope="session")

@@ -8,10 +8,10 @@ from scenes import STEEL, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.study import Run
 from comparisons.output.page import page
 from comparisons.output.page.pictures.answer import overview_picture
 from comparisons.runs.run import run
-from comparisons.studies.study import Run
 
 RADIUS = 10e-3
 COARSE = {"resolution": {"levels": 2, "nodes": 256}, "budget": {"effects": False}}

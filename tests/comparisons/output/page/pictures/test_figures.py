@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_stress
+from comparisons.judging.study import Run
 from comparisons.output.page.pictures.mesh import CELL
-from comparisons.studies.study import Run
 
 
 def line(axes, label: str) -> np.ndarray:

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from comparisons.judging.study import Run
 from comparisons.output.page.pictures.refinement import convergence_picture
 from comparisons.output.page.tables.verification import judged_sequences
-from comparisons.studies.study import Run
 
 
 def shown(axes) -> str:

@@ -10,8 +10,8 @@ from scipy.interpolate import RegularGridInterpolator
 from comparisons.drawing.curves import COINCIDE
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_field, layout, round_bands
 from comparisons.drawing.style import drawing
+from comparisons.judging.study import Run
 from comparisons.output.page.pictures.stresses import field_pictures
-from comparisons.studies.study import Run
 
 
 def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(wavy):

@@ -6,18 +6,18 @@ import pytest
 from scenes import budgeted, refound
 
 from comparisons.figures.figure import Part
-from comparisons.studies.model_error.account import ErrorBudget
-from comparisons.studies.model_error.catalogue import EFFECTS
-from comparisons.studies.model_error.model_error import ModelError
-from comparisons.studies.model_error.selection import EffectSelection
-from comparisons.studies.model_error.show import (
+from comparisons.judging.effects.catalogue import EFFECTS
+from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.model_error.account import ErrorBudget
+from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.show import (
     NUMERICAL,
     effects_table,
     model_error_rows,
     not_modelled_line,
     waterfalls,
 )
-from comparisons.studies.study import Run
+from comparisons.judging.study import Run
 
 ESTIMATES = {
     "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},

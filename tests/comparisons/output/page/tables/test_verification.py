@@ -6,12 +6,12 @@ import pytest
 
 from comparisons.common.numbers import percent
 from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.judging.contact import uncertainties
+from comparisons.judging.study import Run
 from comparisons.output.page.tables.verification import (
     judged_table,
     validation_table,
 )
-from comparisons.studies.contact import uncertainties
-from comparisons.studies.study import Run
 
 
 def test_each_judged_figure_says_how_it_converged(wavy_outcome: Run):

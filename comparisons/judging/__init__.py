@@ -1,0 +1,1 @@
+"""A model is judged against one that drops its assumptions."""

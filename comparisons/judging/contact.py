@@ -1,0 +1,321 @@
+"""What each model says of the contact and of the stresses below it: the study every run has.
+
+In: solved levels of each model. Out: figures of the finest one with their uncertainties, patches,
+and what the levels took."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from comparisons.common.numbers import Scale, plain
+from comparisons.drawing import style
+from comparisons.drawing.curves import distinct, hertz_text, joint_label
+from comparisons.figures.convergence import LOWEST_ORDER, grid_convergence
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, columns_of
+from comparisons.figures.quantity import QUANTITIES as COMPARED
+from comparisons.figures.quantity import WHOLE, Quantity
+from comparisons.figures.uncertainty import (
+    Uncertainty,
+    far_boundary,
+    iteration,
+    length_resolution,
+    numerical,
+    of_increments,
+)
+from comparisons.judging.study import SCATTER, Run, Solved, Study
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.models.smooth import closed_form
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+NAME = "contact"
+QUANTITIES = COMPARED | {
+    "contact_ratio": Quantity("contact length over Hertz 2a"),
+    "von_mises_max": Quantity("largest von Mises stress", "Pa"),
+    "contact_ratio_extent": Quantity("contact length over its extent"),
+    "peak_position": Quantity("place of the peak pressure", "m"),
+    "load_per_length": Quantity("load per length", "N/m"),
+    "approach": Quantity("approach from first touch", "m"),
+}
+MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
+MOST_MARKED = 150  # nodes of a close-up: more would be a band
+AT_HARDNESS = 1.0 - 1e-9  # times the hardness: a pressure held there
+# What is read of the same field or patches is as uncertain.
+AS_UNCERTAIN = {"von_mises_max": "tau1_max"}
+AS_UNCERTAIN |= dict.fromkeys(("contact_ratio", "contact_ratio_extent"), "contact_length")
+UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
+UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
+UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
+AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
+EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """Of every model at every friction coefficient."""
+    problem, runs = solved.problem, solved.runs.values()
+    figures = [
+        f for run in runs for mu in problem.scene.load.friction for f in _of(problem, run, mu)
+    ]
+    statements = []
+    for run in runs:
+        converged = all(level.converged for level in run.levels)
+        statements.append(Statement("converged", "yes" if converged else "no", run.name))
+        if (why := no_approach(problem, run)) is not None:
+            statements.append(Statement("no approach", why, run.name))
+    series = tuple(table for run in runs for table in _series(problem, run))
+    return Findings(tuple(figures), series, tuple(statements))
+
+
+def values_of(level: Level, problem: Problem, friction: float) -> dict[str, float]:
+    """The compared quantities that one model has by itself, SI."""
+    level = level.under(friction)
+    values = {
+        "peak_pressure": float(level.solution.pressure.max()),
+        "contact_length": level.contact_length,
+    }
+    stress = level.stress(friction)
+    if stress is not None:
+        tau1 = stress.extremes["tau1"]
+        values["tau1_max"] = tau1.value
+        values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
+        values["txz_max_abs"] = abs(stress.extremes["txz"].value)
+    return values
+
+
+def pair_of(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
+    """What a difference is of: the figure of its source, by its study or else this one, and of its
+    reference; None of a norm."""
+    of = partial(run.figures.one, quantity=difference.quantity, at=difference.at, against=None)
+    own = of(study=difference.study, source=difference.source)
+    own = own or of(study=NAME, source=difference.source)
+    return own, of(study=NAME, source=difference.against)
+
+
+def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
+    """Height [m] of the level's boundary above places x [m], from which depths count."""
+    if level.mesh is None or not problem.rough_boundary:
+        return np.zeros(np.shape(x))
+    return problem.surface.profile.spline()(x)
+
+
+def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
+    """Of every compared quantity that the model has by itself."""
+    run = run.under(friction)
+    history = [values_of(level, problem, friction) for level in run.levels]
+    repeated = by_repetition(run, lambda level: values_of(level, problem, friction))
+    stated = {}
+    for name, value in history[-1].items():
+        values = [of_level[name] for of_level in history]
+        resolution = 0.0
+        if name == "contact_length":
+            resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
+        order = formal_order(name, run.levels, problem, friction)
+        convergence = grid_convergence(values, order, resolution)
+        scale = abs(value) or COMPARED[name].scale(problem.hertz)
+        domain, increments = (size / scale for size in repeated[name])
+        left = max(convergence.uncertainty / scale, left_by_crest(name, run.finest, friction))
+        parts = iteration(run.finest.solution), left, domain, increments
+        stated[name] = numerical(*parts, convergence)
+    return stated
+
+
+def left_by_crest(name: str, level: Level, friction: float) -> float:
+    """Bound of a level's error by crests that it does not resolve, relative: of the peak pressure,
+    and of a largest shear so near to the surface that it belongs to a crest."""
+    key = EXTREMES.get(name)
+    near = key and level.stress(friction).extremes[key].z <= UNDER_CREST * level.grid.pitch
+    return level.unresolved_crest if near or name == "peak_pressure" else 0.0
+
+
+def formal_order(name: str, levels: Sequence[Level], problem: Problem, friction: float) -> float:
+    """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
+    largest stress to the surface, there it stands at an end of contact, next to which stresses go
+    with the square root of the distance: half an order, whatever the elements."""
+    key = EXTREMES.get(name)
+    if key is not None:
+        depths = (level.stress(friction).extremes[key].z for level in levels)
+        if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
+            return LOWEST_ORDER
+    order, elements = COMPARED[name].formal_order, problem.scene.finite_element
+    meshed = any(level.mesh is not None for level in levels)
+    return min(order, elements.most_order) if meshed else order
+
+
+def by_repetition(
+    run: ModelRun, read: Callable[[Level], Mapping[str, float]]
+) -> dict[str, tuple[float, float]]:
+    """Uncertainties by the far boundary and by the increments of flow of what is read off a level,
+    in its units: by the coarsest level and what it was repeated with."""
+    first, check = read(run.levels[0]), run.far_boundary_check
+    moved = first if check is None else read(check)
+    increments = [*map(read, run.longer_increments), first]
+    return {
+        name: (
+            far_boundary(moved.get(name, value), value),
+            of_increments([figures.get(name, value) for figures in increments]),
+        )
+        for name, value in first.items()
+    }
+
+
+def no_approach(problem: Problem, run: ModelRun) -> str | None:
+    """Why there is no approach from first touch: a body has no datum; None where both have one."""
+    if run.name == "half_plane":
+        return "the displacement of a half-plane is known but for a constant"
+    if problem.scene.body.thickness is None:
+        return "the body is unbounded: the value would grow with the size of its mesh"
+    if not problem.scene.roller.rigid:
+        return "the elastic roller is unbounded: its share has no datum"
+    return None
+
+
+def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
+    """The figures of one model at one friction coefficient."""
+    run = run.under(friction)
+    level, half_width = run.finest, problem.hertz.half_width
+    levels = [values_of(level, problem, friction) for level in run.levels]
+    stated = uncertainties(run, problem, friction)
+    peak, stress = peak_position(level), level.stress(friction)
+    # what is not compared [SI], and the places [m] of largest values
+    values = {
+        "contact_ratio": level.contact_length / (2.0 * half_width),
+        "contact_ratio_extent": level.contact_length / level.extent,
+        "peak_position": peak,
+        "load_per_length": level.solution.load,
+    }
+    if no_approach(problem, run) is None:
+        values["approach"] = level.solution.approach - problem.first_touch
+    places: dict[str, tuple[float, ...]] = {"peak_pressure": (peak,)}
+    if stress is not None:
+        values["von_mises_max"] = abs(stress.extremes["von_mises"].value)
+        for name, key in EXTREMES.items():
+            places[name] = (stress.extremes[key].x, stress.extremes[key].z)
+    # what no sequence of levels is known of: a load that finite elements find, an approach
+    worst = Uncertainty(max(stated.values(), key=lambda u: u.total).parts)
+    exact = problem.scene.load.kind != "approach"
+    for name, value in (levels[-1] | values).items():
+        scale, uncertainty = abs(value) or QUANTITIES[name].scale(problem.hertz), stated.get(name)
+        if name in AS_UNCERTAIN:
+            uncertainty = Uncertainty(stated[AS_UNCERTAIN[name]].parts)
+        elif name == "peak_position":
+            scale = half_width
+            uncertainty = Uncertainty({"discretisation": level.grid.pitch / half_width})
+        elif uncertainty is None:
+            uncertainty = Uncertainty() if name == "load_per_length" and exact else worst
+        hardness = problem.scene.body.hardness
+        capped = name == "peak_pressure" and hardness and value >= AT_HARDNESS * hardness
+        yield Figure(
+            study=NAME,
+            quantity=name,
+            source=run.name,
+            value=value,
+            at={"friction": friction},
+            scale=scale,
+            uncertainty=uncertainty,
+            place=places.get(name),
+            levels=tuple(values[name] for values in levels) if name in levels[-1] else (),
+            notes=("capped",) if capped else (),
+        )
+
+
+def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
+    """Patches of contact, and what each level took beside what the laws of cost said."""
+    for level in run.finest.by_friction:
+        at = {} if level.friction is None else {"friction": level.friction}
+        friction = at.get("friction", problem.scene.load.friction[0])
+        stated = uncertainties(run, problem, friction)["contact_length"].total
+        edges = (stated * level.contact_length,) * len(level.patches)
+        start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
+        yield Series("patches", {"start": start, "stop": stop}, run.name, at)
+    level = run.finest
+    took = [
+        {
+            "pitch": level.grid.pitch,
+            "unknowns": level.unknowns,
+            "seconds": sum(level.seconds.values()),
+            "expected_seconds": level.expected_seconds,
+            "peak_memory": level.peak_memory,
+            "expected_memory": level.expected_memory,
+        }
+        for level in run.levels
+    ]
+    yield Series("levels", columns_of(took, UNITS), run.name, is_account=True)
+    for name, counts, unit in (
+        ("seconds", run.seconds, "s"),
+        ("iterations", level.solution.iterations, ""),
+    ):
+        columns = {"stage": Column(tuple(counts)), name: Column(tuple(counts.values()), unit)}
+        yield Series(name, columns, run.name, is_account=True)
+
+
+def peak_position(level: Level) -> float:
+    """Place [m] of a level's highest pressure."""
+    return float(level.grid.x[level.solution.pressure.argmax()])
+
+
+def seen(run: Run, room: float) -> tuple[float, float]:
+    """Ends [m] of what pictures show: all contact under the friction that decides and, where they
+    meet, Hertz's; beside it `room`, a share of half its length."""
+    half_width, levels = run.problem.hertz.half_width, run.levels(run.deciding_friction).values()
+    first = float(min(level.patches[0, 0] for level in levels))
+    last = float(max(level.patches[-1, 1] for level in levels))
+    if first < half_width and last > -half_width:
+        first, last = min(first, -half_width), max(last, half_width)
+    beside = 0.5 * room * (last - first)
+    return first - beside, last + beside
+
+
+def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
+    """Places and pressures with the feet of the first and last hat; of a periodic surface from one
+    end of the period to the other."""
+    grid, pressure = level.grid, level.solution.pressure
+    ends = (pressure[:0], pressure[:1]) if grid.periodic else (np.zeros(1), np.zeros(1))
+    return grid.hats, np.concatenate([ends[0], pressure, ends[1]])
+
+
+def draw_pressures(
+    axes: "Axes", run: Run, across: tuple[float, float], unit: Scale, nodes: bool = False
+) -> None:
+    """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words
+    and what uncertain inputs do; at the friction coefficient that decides.
+
+    nodes  whether the nodes of the pressures are marked, where they stand apart"""
+    hertz, friction = run.problem.hertz, run.deciding_friction
+    several = len(run.problem.scene.load.friction) > 1
+    sliding = f", μ = {plain(friction)}" if several else ""
+    curves = {}
+    for name, level in run.levels(friction).items():
+        x, pressure = closed(level)
+        shown = style.near(x, across, level.grid.pitch)
+        curves[name] = x[shown] / unit.factor, pressure[shown] / hertz.peak_pressure
+    for names, (x, pressure) in distinct(curves).items():
+        axes.plot(
+            x,
+            pressure,
+            label=joint_label(names, sliding if WHOLE in names else ""),
+            marker=MARKERS[names[0]] if nodes and len(x) <= MOST_MARKED else None,
+            markersize=3.2,
+            markerfacecolor="none",
+            **style.LINES[names[0]],
+        )
+    if (spread := run.data(SCATTER)) is not None:
+        x, (low, high) = spread.x, spread.band / hertz.peak_pressure
+        shown = style.near(x, across, spread.pitch)
+        axes.fill_between(x[shown] / unit.factor, low[shown], high[shown], **style.BAND)
+    smooth = closed_form(run.problem)
+    if smooth is not None:
+        ends = np.clip([-0.5 * smooth.contact_length, 0.5 * smooth.contact_length], *across)
+        x = np.union1d(np.linspace(*across, 600), ends)
+        pressure = smooth.pressure(x) / hertz.peak_pressure
+        axes.plot(x / unit.factor, pressure, label=smooth.label, **style.REFERENCE)
+    axes.set_ylabel("p/p₀")
+    look = {"transform": axes.transAxes, "va": "top", "bbox": style.BEHIND_WORDS}
+    axes.text(0.008, 0.97, hertz_text(run.problem), **look)
+
+
+STUDY = Study(NAME, QUANTITIES, solve)

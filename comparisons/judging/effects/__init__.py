@@ -1,0 +1,1 @@
+"""The assumptions of the half-plane, and what dropping each may change."""

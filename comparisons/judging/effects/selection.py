@@ -1,0 +1,168 @@
+"""Which effects a run computes: those that may move a judged figure by a share of its tolerance.
+
+A tolerance that is looser than the usual one selects as the usual one does: what it left out would
+count, and might keep from holding what holds at a tighter one."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from comparisons.figures.quantity import USUAL
+from comparisons.judging.coupling import Coupling
+from comparisons.judging.effects.catalogue import COUPLED, EFFECTS, contained
+from comparisons.judging.effects.estimates import Sizes, estimates, flow_of, typical_shears
+from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.laws import OpenLaw, open_laws
+from comparisons.models.problem import Problem
+
+SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
+FLOW = "plastic_flow"
+SMALL_STRAINS = "flow is taken at small strains"
+ITS_OWN_LAW = "a body that flows has Hencky's law of elasticity"
+ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
+# Effects in the order of the sums of their contributions, whose last bit depends on it.
+NONLINEAR = ("finite_strain", FLOW)
+ORDER = (
+    "exact_circle",
+    "coating",
+    "normal_tangential_coupling",
+    "finite_roller",
+    "finite_size",
+    *NONLINEAR,
+)
+
+
+@dataclass(frozen=True)
+class EffectSelection:
+    """What becomes of every effect."""
+
+    contained: frozenset[str]  # the scene's own finite elements have it
+    added: frozenset[str]  # computed beside, for the verdict
+    negligible: dict[str, Sizes]  # too small to matter, each with its estimate
+    impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
+    estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
+    laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
+    found: frozenset[str] = frozenset()  # of the negligible, those that were computed
+    # [s] budget.time in which finite strain of what flows can be computed, where it is too short
+    time: float | None = None
+
+    @property
+    def whole(self) -> frozenset[str]:
+        """Effects of the whole model, which the verdict is about."""
+        return self.contained | self.added
+
+    def without(self, names: frozenset[str], why: str) -> "EffectSelection":
+        """The same without some of the added effects, for a reason; other laws of elasticity take
+        finite deformation."""
+        added, laws = self.added - names, self.laws
+        if laws and (LAW in names or "finite_strain" not in self.contained | added):
+            names, laws = names | {LAW}, ()
+        impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
+        return replace(self, added=added, impossible=impossible, laws=laws)
+
+    def flowing_finitely(self) -> "EffectSelection":
+        """The same with finite strain of what flows, which could not be computed before."""
+        impossible = {name: why for name, why in self.impossible.items() if name != "finite_strain"}
+        return replace(self, added=self.added | {"finite_strain"}, impossible=impossible)
+
+    def estimated(
+        self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
+    ) -> "EffectSelection":
+        """The same with an effect that no model has, for a reason."""
+        impossible = dict(sorted((self.impossible | {name: why}).items()))
+        return replace(self, impossible=impossible).resized(name, sizes, tolerances)
+
+    def resized(
+        self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
+    ) -> "EffectSelection":
+        """The same with another estimate of an effect that is not computed, which may turn out to
+        be negligible."""
+        mine = replace(self, estimates=self.estimates | {name: sizes})
+        if not is_negligible(sizes, tolerances):
+            return mine
+        impossible = {other: why for other, why in self.impossible.items() if other != name}
+        return replace(mine, impossible=impossible, negligible=self.negligible | {name: sizes})
+
+    def not_modelled(self, quantity: str) -> Sizes:
+        """By name, estimates of the effects on a quantity that no model has."""
+        open_effects = set(self.negligible) | set(self.impossible)  # not those of `laws`
+        return {
+            name: sizes[quantity]
+            for name, sizes in self.estimates.items()
+            if name in open_effects and quantity in sizes
+        }
+
+
+def select_effects(
+    problem: Problem,
+    peak: float,
+    couplings: tuple[Coupling, ...],
+    mean: float | None = None,
+    shear: float = 0.0,
+    known: Mapping[str, Sizes] = {},
+    no_time: str | None = None,
+) -> EffectSelection:
+    """Decide by the estimates.
+
+    peak     the half-plane's largest pressure [Pa]
+    mean     of its contact [Pa], by default the same
+    shear    its largest tau1 [Pa], at least
+    known    by effect, what it was found to change, in place of its estimate
+    no_time  why flow is not computed where it could be"""
+    own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
+    estimated = estimates(problem, peak, peak if mean is None else mean, couplings, shear)
+    sized = {name: sizes for name, sizes in estimated.items() if EFFECTS[name].applies(problem)}
+    sized |= known
+    added, negligible, impossible = set(), {}, {}
+    mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
+    flows = FLOW in own_effects
+    flows = flows or (FLOW in mattering and not (why_not(FLOW, problem) or no_time))
+    if LAW in mattering and not flows:  # it shows in finite deformation alone
+        mattering.add("finite_strain")
+    can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
+    laws = open_laws(problem.scene) if can_be_solved else ()
+    for name, sizes in sized.items():
+        if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
+            continue
+        why = why_not(name, problem, flows) or (no_time if name == FLOW else None)
+        if name not in mattering:
+            negligible[name] = sizes
+        elif why is not None:
+            impossible[name] = why
+        elif name != LAW:
+            added.add(name)
+    if any(problem.scene.load.friction) and (added | own_effects) & set(NONLINEAR):
+        negligible.pop(COUPLED, None)  # these bodies have it
+    return EffectSelection(
+        *(own_effects, frozenset(added), negligible, impossible, sized, laws),
+        found=frozenset(known) & negligible.keys(),
+    )
+
+
+def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
+    """Whether an effect moves no judged figure by a share of its tolerance that matters."""
+    return all(
+        sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * min(tolerance, USUAL)
+        for quantity, tolerance in tolerances.items()
+    )
+
+
+def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
+    """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
+    scene = problem.scene
+    if scene.periodic and name not in ON_ONE_PERIOD:
+        return "the bodies of a periodic surface are linear, its roughness is in the gap"
+    if name == "roller_support":
+        return "no support is given: a sector of the disc is held at 0.4 of its radius"
+    if name not in (*NONLINEAR, LAW):
+        return None
+    reasons = {ITS_OWN_LAW if name == LAW else SMALL_STRAINS: flows}
+    if name == FLOW:
+        typical, unknown = typical_shears(scene.body), "the body has no yield stress"
+        if typical and not scene.body.hardness:  # nothing stands for its flow
+            unknown += f", {flow_of(scene.body, *typical)}"
+        reasons = {
+            unknown: scene.body.yield_stress is None,
+            "it takes no prescribed approach": scene.load.kind == "approach",
+            'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
+        }
+    return next((why for why, hindered in reasons.items() if hindered), None)

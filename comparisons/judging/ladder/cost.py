@@ -1,0 +1,343 @@
+"""Error against run time: every solved level of every model beside the best figures there are.
+
+In: a solved scene and what it was judged by. Out: a row for each level with its errors, seconds and
+memory; the cheapest setting for each tolerance; one table and one picture.
+
+Errors are relative, the largest of any friction coefficient, against the whole model; where nothing
+was compared, against the finest level of the last model. No error below the reference's uncertainty
+is known. Where the finite elements drop an assumption of the half-plane, its model error counts:
+more time does not help. Every run shows the levels that it has solved. `crosscheck cost` adds other
+elements, other operators, coarser and finer ones. Seconds are those of the stages of a level."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import takewhile
+from operator import itemgetter
+from typing import TYPE_CHECKING
+
+from analytic.contact.problem import ContactError
+from comparisons.common.errors import InputError, SolverError, defect, one_line
+from comparisons.common.numbers import percent, percent_as_written, with_unit
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import LAST, Here, Tasks
+from comparisons.drawing import style
+from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
+from comparisons.drawing.curves import joint_legend
+from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
+from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
+from comparisons.judging import contact
+from comparisons.judging.effects.catalogue import contained
+from comparisons.judging.ladder.operators import carried_deformed, carried_linear, operator_level
+from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
+from comparisons.models.forecast import expected_level
+from comparisons.models.level import Level, flowing_contact
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# What a method says that cannot solve a scene.
+EXPECTED = InputError, SolverError, ContactError, FemError, MeshError
+NAME, ROWS, CHEAPEST = "cost", "levels", "cheapest"  # study, and its series
+SHOWN = ("peak_pressure", "contact_length", "tau1_max")
+LEAST = 1e-7  # smaller errors are drawn there
+HEIGHT = 3.4  # inches, of the picture
+MARKS = "oDv^<sPX"  # of models
+# Fields of finite elements that assume small, elastic strains.
+LINEAR = {"finite_element.deformation": "linear", "finite_element.plastic": False}
+COLUMNS = ("model", "kind", "pitch", "elements", "unknowns", "seconds", "peak_memory")
+NOTE = """Errors are relative, the largest of any friction coefficient. Grey in the picture is what
+is not known of the reference. A star is the cheapest setting that meets all tolerances, as every
+finer one of its model does. Seconds are of one level, on one core."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to solve the contact that `crosscheck cost` adds, on elements of some pitches: factors
+    on the scene's coarsest."""
+
+    name: str
+    kind: str  # half_plane | finite_element
+    factors: tuple[float, ...]
+    fields: Mapping[str, object] | None = None  # of the scene's finite elements; None: an operator
+    carried: frozenset[str] = frozenset()  # what the operator has beside the half-plane
+
+    def posed(self, problem: Problem) -> Problem:
+        return replace(problem, scene=problem.scene.unchecked(self.fields or {}))
+
+    def seconds(self, problem: Problem, pitch: float) -> float:
+        """What a level is expected to take."""
+        if self.fields is None:
+            return 0.0
+        problem = self.posed(problem)
+        plan, patches = make_plan(problem, (self.kind,)), flowing_contact(problem)
+        return expected_level(self.kind, problem, plan, pitch, patches).seconds
+
+
+@dataclass(frozen=True)
+class Reference:
+    values: tuple[float, ...]  # [SI], one a friction coefficient
+    floor: float  # relative uncertainty, the largest of any
+    words: str
+
+
+def methods_of(problem: Problem) -> list[Method]:
+    """Those that apply beside what every run solves."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    effects, own = contained(scene), LABELS["finite_element"]
+    methods = [
+        Method(LABELS["half_plane"], "half_plane", (2.0, 0.125, 0.0625)),
+        Method(own, "finite_element", (2.0,), {}),
+    ]
+    if settings.nonlinear:  # which P2 elements alone solve
+        methods.append(Method(f"{own}, linear", "finite_element", (1.0, 0.5), LINEAR))
+    else:
+        coarse = {f"{own}, {p}": {"finite_element.element": p} for p in ("P1", "P3")}
+        methods += [Method(n, "finite_element", (2.0, 1.0, 0.5), f) for n, f in coarse.items()]
+    linear, deformed = carried_linear(scene, effects), carried_deformed(problem, effects)
+    held = {"layered": linear, "deformed": deformed}
+    if len(scene.load.friction) == 1 or not settings.coupled:
+        names = ((f"{LABELS['half_plane']}, {name}", of) for name, of in held.items() if of)
+        methods += [Method(n, "half_plane", (1.0, 0.5, 0.25), None, of) for n, of in names]
+    return methods
+
+
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Make known what `crosscheck cost` asks for; other runs solve nothing for this."""
+    if solved.all_methods and not solved.runs:
+        for method, pitch, key in _asked(solved):
+            how = method, solved.problem, pitch, solved.window
+            seconds = method.seconds(solved.problem, pitch)
+            tasks.add(key, level_by, *how, seconds=seconds, urgency=LAST)
+
+
+def _asked(solved: Solved) -> Iterator[tuple[Method, float, str]]:
+    """Methods, pitches [m] and keys of their tasks, those that fit the budget of time."""
+    left = solved.problem.time
+    for method in methods_of(solved.problem):
+        if method.kind not in solved.plan.models:
+            continue
+        for factor in method.factors:
+            pitch = factor * solved.problem.pitches[0]
+            left -= method.seconds(solved.problem, pitch)
+            if left > 0.0:
+                yield method, pitch, f"cost-{'-'.join(method.name.split())}-{factor:g}"
+
+
+def level_by(
+    here: Here, method: Method, problem: Problem, pitch: float, window: Window | None
+) -> Level:
+    """A level by a method, without its fields."""
+    stages = Stages(lambda stage: here.callback(f"{stage}, {method.name}"))
+    if method.carried:
+        how = problem.scene.load.friction, pitch, window
+        return operator_level(problem, method.carried, *how)
+    if method.fields is None:
+        from comparisons.models.half_plane import half_plane_level
+
+        return half_plane_level(problem, pitch, window, stages, fields=False)
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+
+    posed = method.posed(problem)
+    plan = make_plan(posed, (method.kind,))
+    level = finite_element_level(posed, plan, Refinement(pitch), window, stages, fields=False)
+    return replace(level, mesh=None)
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    levels = [(LABELS[name], name, lv) for name, run in solved.runs.items() for lv in run.levels]
+    said = []
+    for method, pitch, key in _asked(solved) if solved.all_methods else ():
+        try:
+            level = tasks.result(key)
+            why = "" if level.converged else "did not converge"
+        except Exception as error:  # costs its row alone
+            why = one_line(str(error) if isinstance(error, EXPECTED) else defect(error))
+        if why:
+            left = f"{method.name} at {with_unit(pitch, 'm', 3)}: {why}"
+            said.append(Statement("left out", left))
+        else:
+            levels.append((method.name, method.kind, level))
+    known = _references(solved, before)
+    budget = before[MODEL_ERROR].data if MODEL_ERROR in before else None
+    beside = budget is not None and bool(budget.selection.added)  # the whole is another model
+    reference = next(reversed(solved.runs.values())).finest
+    if beside:
+        reference = max(budget.wholes.items())[1]
+        levels.append((LABELS[WHOLE], "finite_element", reference))
+    rows = []
+    for name, kind, level in sorted(levels, key=lambda row: (row[0], -row[2].grid.pitch)):
+        size = level.grid.pitch, level.grid.count, level.unknowns
+        took = sum(level.seconds.values()), level.peak_memory
+        errors = {} if level is reference else _errors(solved.problem, level, known)
+        row = dict(zip(COLUMNS, (name, kind, *size, *took), strict=True))
+        rows.append(row | {quantity: errors.get(quantity) for quantity in known})
+    units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
+    columns = {n: Column(tuple(r[n] for r in rows), units.get(n, "")) for n in (*COLUMNS, *known)}
+    measures = (
+        f"{QUANTITIES[name].short} of {best.words}, known to {percent(best.floor)}"
+        for name, best in known.items()
+    )
+    said += [Statement("reference", "; ".join(measures))] if known else []
+    tolerances = {n: t for n, t in solved.problem.scene.tolerances.items() if n in known}
+    aims = [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1)
+    best = {}
+    for aim in aims:
+        words = (f"{QUANTITIES[n].short} to {percent_as_written(t)}" for n, t in aim.items())
+        settings = []
+        for row in cheapest(rows, aim, known):
+            pitch, seconds = with_unit(row["pitch"], "m", 3), with_unit(row["seconds"], "s", 2)
+            settings.append(f"{row['model']} at {pitch}, {seconds}")
+        best[", ".join(words)] = "; ".join(settings) or "none that is solved"
+    chosen = {"aim": Column(tuple(best)), "setting": Column(tuple(best.values()))}
+    series = Series(ROWS, columns, is_account=True), Series(CHEAPEST, chosen, is_account=True)
+    data = {name: reference.floor for name, reference in known.items()}
+    return Findings((), series, tuple(said), data)
+
+
+def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Reference]:
+    """By quantity: of the whole model what was judged, else of the last model's finest level."""
+    frictions = solved.problem.scene.load.friction
+    known: dict[str, Reference] = {}
+    if LADDER in before:
+        errors = Figures(before[MODEL_ERROR].figures).of(source="half_plane")
+        unsure = Figures(before[LADDER].figures).of(source=WHOLE)
+        for name in SHOWN:
+            mine, left = errors.of(quantity=name), unsure.of(quantity=name)
+            if len(mine) == len(left) == len(frictions):
+                values = tuple(error.scale for error in mine)
+                words = f"the {LABELS[WHOLE]}"
+                known[name] = Reference(values, max(f.numerical for f in left), words)
+    if known:
+        return known
+    name, run = next(reversed(solved.runs.items()))
+    figures = Figures(before[contact.NAME].figures).of(source=name)
+    for quantity in SHOWN:
+        if mine := figures.of(quantity=quantity):
+            words = f"{LABELS[name]} at {with_unit(run.finest.grid.pitch, 'm', 3)}"
+            values, floor = tuple(f.value for f in mine), max(f.numerical for f in mine)
+            known[quantity] = Reference(values, floor, words)
+    return known
+
+
+def _errors(problem: Problem, level: Level, known: Mapping[str, Reference]) -> dict[str, float]:
+    found = [contact.values_of(level, problem, mu) for mu in problem.scene.load.friction]
+    errors = {}
+    for name, best in known.items():
+        if all(name in values for values in found):
+            pairs = zip(found, best.values, strict=True)
+            errors[name] = max(abs(values[name] / exact - 1.0) for values, exact in pairs)
+    return errors
+
+
+def cheapest(
+    rows: list[dict], aim: Mapping[str, float], known: Mapping[str, Reference]
+) -> list[dict]:
+    """Of each kind of model the row of the fewest seconds that meets the tolerances not by chance:
+    all finer ones of its model do, and the finest of those with its assumptions. None where none
+    does."""
+
+    def meets(row: dict) -> bool:
+        return all(row[name] + known[name].floor <= most for name, most in aim.items())
+
+    judged = [row for row in rows if None not in [row[name] for name in aim]]
+    met: list[dict] = []
+    for mine in grouped(judged, lambda row: row["model"]):
+        like = [row for row in judged if _limit(row) == _limit(mine[0])]
+        if meets(min(like, key=lambda row: row["pitch"])):
+            met += takewhile(meets, reversed(mine))
+    return [min(some, key=itemgetter("seconds")) for some in grouped(met, lambda row: row["kind"])]
+
+
+def _limit(row: Mapping[str, object]) -> str:
+    """The model to which a row's would converge."""
+    return re.sub(", P[13]$", "", row["model"])
+
+
+def table(findings: Findings) -> TextTable:
+    """All rows, from coarse to fine."""
+    series = findings.table(ROWS)
+    names = [name for name in series.columns if name in SHOWN]
+    head = ("model", "pitch", *(label(name) for name in names), "time", "memory")
+    rows = []
+    for row in series.rows():
+        errors = ("reference" if row[name] is None else percent(row[name]) for name in names)
+        memory = with_unit(row["peak_memory"], "byte", 3)
+        cells = with_unit(row["pitch"], "m", 3), *errors, with_unit(row["seconds"], "s", 2), memory
+        rows.append((row["model"], *cells))
+    return TextTable("", head, tuple(rows))
+
+
+def notes(findings: Findings) -> list[str]:
+    """What errors are measured by, what is left out, and the cheapest for each tolerance."""
+    said = [f"{one.name}: {one.text}" for one in findings.statements]
+    chosen = findings.table(CHEAPEST).rows()
+    return said + [f"cheapest for {row['aim']}: {row['setting']}" for row in chosen]
+
+
+def blocks(run: Run) -> list[Block]:
+    findings = run.findings[NAME]
+    said = " ".join(f"{line[0].upper()}{line[1:]}." for line in notes(findings))
+    shown = Box("on-screens", (Pictures((NAME,)),))  # too wide to be read on paper
+    return [Block("cost", (shown, table(findings), Note(f"{NOTE} {said}")))]
+
+
+def picture(run: Run) -> style.Picture | None:
+    """Error against seconds, a panel a quantity: a line a model, the tolerance, what the reference
+    leaves unknown."""
+    findings = run.findings[NAME]
+    names = [name for name in findings.table(ROWS).columns if name in SHOWN]
+    if not names:
+        return None
+    drawn = style.figure(style.THIRD * len(names), HEIGHT)
+    panels = drawn.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, name in zip(panels, names, strict=True):
+        _draw(axes, run, name)
+    rows, floors = findings.table(ROWS).rows(), findings.data.values()
+    shown = [row[name] for row in rows for name in names if row[name] is not None]
+    shown = [size for size in (*shown, *floors) if LEAST < size < math.inf] or [LEAST]
+    panels[0].set_ylim(0.3 * min(shown), 3.0 * max(shown))
+    panels[0].set_ylabel("error / reference")
+    drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)
+    joint_legend(drawn, 2 * len(names) - 1)
+    said = "; ".join(notes(findings))
+    return style.picture(drawn, f"Error against time of every solved level. {said}.", NOTE)
+
+
+def _draw(axes: "Axes", run: Run, name: str) -> None:
+    rows = [row for row in run.findings[NAME].table(ROWS).rows() if row[name] is not None]
+    tolerance = run.problem.scene.tolerances.get(name)
+    floor = run.findings[NAME].data[name]
+    for model, mark in zip(dict.fromkeys(row["model"] for row in rows), MARKS, strict=False):
+        mine = [row for row in rows if row["model"] == model]
+        errors = [max(row[name], LEAST) for row in mine]
+        look = {"linestyle": "-" if mine[0]["kind"] == "half_plane" else "--", "marker": mark}
+        axes.plot([row["seconds"] for row in mine], errors, label=model, **look)
+    if tolerance is not None:
+        axes.axhline(tolerance, label="tolerance", **style.REFERENCE)
+        known = {name: Reference((), floor, "")}
+        stars = cheapest(rows, {name: tolerance}, known)
+        look = {"linestyle": "none", "marker": "*", "markersize": 13, "color": "black"}
+        places = [row["seconds"] for row in stars], [max(row[name], LEAST) for row in stars]
+        axes.plot(*places, label="cheapest", zorder=3.0, **look)
+    if LEAST < floor < math.inf:
+        axes.axhspan(LEAST, floor, facecolor="#eceff1", zorder=0, label="reference uncertain")
+    axes.set(xscale="log", yscale="log", xlabel="time [s]")
+    axes.set_title(label(name))
+
+
+STUDY = Study(
+    name=NAME,
+    quantities={},
+    solve=solve,
+    begin=begin,
+    blocks=blocks,
+    pictures={NAME: picture},
+)

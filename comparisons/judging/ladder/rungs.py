@@ -1,0 +1,303 @@
+"""The models of a scene from the cheapest to the whole, each with its errors against the whole.
+
+In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
+is a closed form; every other rung is what the run has solved for its verdict."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+
+from analytic.contact.problem import ContactError
+from comparisons.common.tasks import LAST, Tasks, called
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import MODELS, WHOLE
+from comparisons.judging.comparison import differences_of
+from comparisons.judging.contact import uncertainties
+from comparisons.judging.effects.catalogue import COUPLED, EFFECTS
+from comparisons.judging.ladder.operators import (
+    carried,
+    carried_deformed,
+    operator_level,
+    why_no_stresses,
+    words_of,
+)
+from comparisons.judging.model_error.account import ErrorBudget, figure_of
+from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.study import LADDER, Solved
+from comparisons.judging.yielding import FlowAssessment
+from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
+from comparisons.models.smooth import closed_form
+from comparisons.models.window import Window
+
+HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
+LINEAR, FINITE, FLOW = "linear", "finite", "flow"
+OTHER = MODELS[1]  # the finite elements of the scene
+# Kinds of rungs, from the cheapest on.
+KINDS = {
+    HERTZ: "Hertz's closed form",
+    HALF_PLANE: "half-plane",
+    OPERATORS: "half-plane with what an operator carries",
+    DEFORMED: "half-plane on the deformed surface",
+    LINEAR: "linear finite elements",
+    FINITE: "finite deformation",
+    FLOW: "elastic-plastic finite elements",
+    WHOLE: "whole model",
+}
+NONLINEAR = {"finite_strain": FINITE, "plastic_flow": FLOW}  # kinds by effect; others are linear
+
+
+def verdict_of(errors: Iterable[Figure]) -> str:
+    """Of all errors of a rung: holds where all do, fails where one does."""
+    verdicts = {figure.verdict for figure in errors}
+    return next(v for v in ("fails", "inconclusive", "holds") if v in verdicts)
+
+
+def may_suffice(errors: Iterable[Figure]) -> bool:
+    """Whether no error of a rung fails, or is less certain than its tolerance."""
+    return all(e.verdict != "fails" and e.total <= e.tolerance for e in errors)
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One model and its errors in what the scene judges."""
+
+    name: str  # source of its figures
+    kind: str  # of KINDS
+    words: str
+    figures: tuple[Figure, ...]  # (rung - whole) / whole
+    seconds: float
+    memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
+    effects: frozenset[str] = frozenset()  # that it has beside the half-plane's assumptions
+
+    @property
+    def verdict(self) -> str:
+        return verdict_of(self.figures)
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """What the rungs of one scene are made of."""
+
+    solved: Solved
+    budget: ErrorBudget
+    tasks: Tasks  # that solve what only the ladder asks for
+    compared: tuple[Figure, ...]  # the models' comparison, those that are judged
+    flow: FlowAssessment
+
+    def rungs(self) -> list[Rung]:
+        """From the cheapest to the whole."""
+        made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
+        made = [rung for rung in made if rung is not None]
+        by_half_plane = HERTZ, HALF_PLANE, OPERATORS
+        for make in (self._operators, self._deformed):
+            if any(rung.verdict == "holds" for rung in made if rung.kind in by_half_plane):
+                break
+            made += [rung for rung in [make(made)] if rung is not None]
+        order = list(KINDS)
+        return sorted(made, key=lambda rung: order.index(rung.kind))
+
+    @property
+    def flows(self) -> str:
+        """That the body flows beyond doubt, and no model of the run does: nothing can suffice."""
+        return "" if "plastic_flow" in self.budget.selection.whole else self.flow.beyond_doubt
+
+    def _operators(self, made: list[Rung]) -> Rung | None:
+        """Solved here, where it has anything that the half-plane has not and could be the answer:
+        the same effects in finite elements are not refuted."""
+        problem, window, selection = self.solved.problem, self.solved.window, self.budget.selection
+        held = carried(problem, selection.whole, self.flow)
+        same = [rung for rung in made if rung.effects == held]
+        refuted = self.flows or any(rung.verdict == "fails" for rung in same)
+        if not held or refuted or why_no_stresses(problem, window) is not None:
+            return None
+        return self._by_half_plane(OPERATORS, held)
+
+    def _deformed(self, made: list[Rung]) -> Rung | None:
+        """Where the whole deforms finitely, and does not flow."""
+        held = carried_deformed(self.solved.problem, self.budget.selection.whole)
+        flows = self.flows or "plastic_flow" in self.budget.selection.whole
+        return self._by_half_plane(DEFORMED, held) if held and not flows else None
+
+    def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
+        """The half-plane with some of the effects, on the finite elements' pressure elements."""
+        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
+        runs = operator_runs(problem, held, finite_elements, self.solved.window, self.tasks)
+        if runs is None:
+            return None
+        errors = [error for mu, run in runs.items() for error in self._errors(run, mu)]
+        figures = self._figures(name, errors)
+        return Rung(name, name, words_of(held), figures, *cost_of(runs), held)
+
+    def _errors(self, run: ModelRun, friction: float) -> list[ModelError]:
+        """Errors against the whole of a model that was solved on the half-plane's pressures."""
+        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
+        rows = differences_of(run, finite_elements, problem, friction)
+        runs = {"half_plane": run, OTHER: finite_elements}
+        solutions = replace(self.budget.solutions[friction], runs=runs)
+        judged = [rows[row.quantity] for row in self._rows(friction)]
+        return [solutions.error(row) for row in judged]
+
+    def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
+        """Model errors as figures of a rung."""
+        tolerances = self.solved.problem.scene.tolerances
+        judged = (figure_of(error, self.budget.selection, tolerances) for error in errors)
+        rung = {"study": LADDER, "source": name, "parts": (), "place": None}
+        return tuple(replace(figure, **rung) for figure in judged)
+
+    def _hertz(self) -> Rung | None:
+        if (smooth := closed_form(self.solved.problem)) is None:
+            return None
+        began, problem, window = perf_counter(), self.solved.problem, self.solved.window
+        errors, finite_elements = [], self.solved.runs[OTHER]
+        for friction, solutions in self.budget.solutions.items():
+            exact = hertz_quantities(problem, friction, window)
+            stated = uncertainties(finite_elements, problem, friction)
+            errors += [
+                solutions.of_exact(row.quantity, exact, stated[row.quantity].total)
+                for row in self._rows(friction)
+            ]
+        seconds = perf_counter() - began
+        figures = self._figures(HERTZ, errors)
+        return Rung(HERTZ, HERTZ, f"{smooth.name}'s closed form", figures, seconds, 0.0)
+
+    def _half_plane(self) -> Rung:
+        run = self.solved.runs["half_plane"]
+        errors = [self.budget.of(row.quantity, row.friction) for row in self.compared]
+        return _rung_of(run, HALF_PLANE, KINDS[HALF_PLANE], self._figures(HALF_PLANE, errors))
+
+    def _effects(self) -> Iterator[Rung]:
+        """Finite elements with one effect each, where they are neither the whole nor the scene's
+        own."""
+        every = self.budget.solutions.values()
+        for name in dict.fromkeys(name for solutions in every for name in solutions.effects):
+            kind = NONLINEAR.get(name, LINEAR)
+            levels = [level for solutions in every for level in solutions.split_levels]
+            pairs = [(level.pairs[name][0], level.whole) for level in levels if name in level.pairs]
+            is_whole = all(with_it is whole for with_it, whole in pairs)
+            if self.budget.selection.contained == {name} or is_whole:
+                continue
+            errors = []
+            for friction, solutions in self.budget.solutions.items():
+                # with the effect, or where it does nothing, without any
+                levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in solutions.split_levels]
+                rows = self._rows(friction)
+                errors += [solutions.of_variants(row.quantity, levels) for row in rows]
+            words = f"{KINDS[kind]} alone"
+            if kind == LINEAR:
+                words = f"finite elements with {EFFECTS[name].label}"
+            figures = self._figures(name, errors)
+            yield Rung(name, kind, words, figures, *self.budget.took[name], frozenset({name}))
+
+    def _own(self) -> Rung | None:
+        """The scene's own finite elements, where they have effects and are not the whole."""
+        contained, every = self.budget.selection.contained, self.budget.solutions
+        lacking = (solutions.missing[-1].figures.values() for solutions in every.values())
+        if not contained or not any(np.any(change) for figures in lacking for change in figures):
+            return None
+        kind = kind_of(contained)
+        errors = [
+            solutions.of_variants(row.quantity, [level.of_scene for level in solutions.history])
+            for friction, solutions in every.items()
+            for row in self._rows(friction)
+        ]
+        run, words = self.solved.runs[OTHER], words_of_kind(contained)
+        rung = _rung_of(run, OTHER, words, self._figures(OTHER, errors), kind)
+        return replace(rung, effects=contained)
+
+    def _whole(self) -> Rung:
+        """What is not known of the reference itself."""
+        run, errors = self.solved.runs[OTHER], []
+        for friction, solutions in self.budget.solutions.items():
+            stated = uncertainties(run, self.solved.problem, friction)
+            errors += [
+                solutions.of_whole(row.quantity, stated[row.quantity].total)
+                for row in self._rows(friction)
+            ]
+        inside = words_of_kind(self.budget.selection.whole)
+        rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors))
+        seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
+        return replace(rung, seconds=rung.seconds + seconds, memory=max(rung.memory, memory))
+
+    def _rows(self, friction: float) -> list[Figure]:
+        return [row for row in self.compared if row.friction == friction]
+
+
+def announce_operators(
+    problem: Problem,
+    held: frozenset[str],
+    pitches: Iterable[float],
+    window: Window | None,
+    tasks: Tasks,
+) -> dict[tuple[float, ...], list[str]]:
+    """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
+    pitch [m]: their keys by the friction coefficients that share a contact."""
+    frictions, keys, pitches = problem.scene.load.friction, {}, list(pitches)
+    for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
+        name = "+".join(sorted(held)) + f"@{group[0]:g}"
+        keys[group] = [f"operators-{name}-{number}" for number in range(1, len(pitches) + 1)]
+        for key, pitch in zip(keys[group], pitches, strict=True):
+            how = problem, held, group, pitch, window
+            tasks.add(key, called, operator_level, *how, urgency=LAST)
+    return keys
+
+
+def operator_runs(
+    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None, tasks: Tasks
+) -> dict[float, ModelRun] | None:
+    """The half-plane with what an operator carries, by friction coefficient, on the pressure
+    elements of another model; None where it has no solution."""
+    pitches, runs = [level.grid.pitch for level in like.levels], {}
+    for group, keys in announce_operators(problem, held, pitches, window, tasks).items():
+        try:
+            levels = tuple(map(tasks.result, keys))
+        except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+            return None
+        if not all(level.solution.converged for level in levels):
+            return None
+        runs |= dict.fromkeys(group, ModelRun(OPERATORS, levels))
+    return runs
+
+
+def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
+    """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
+    once = {id(run): run for run in runs.values()}.values()
+    memory = max(run.finest.peak_memory for run in once)
+    return sum(sum(run.seconds.values()) for run in once), memory
+
+
+def hertz_quantities(
+    problem: Problem, friction: float, window: Window | None
+) -> QuantitiesOfInterest:
+    """The smooth contact's closed form, where it has one; largest stresses with a window."""
+    smooth = closed_form(problem)
+    values = {"peak_pressure": smooth.peak_pressure, "contact_length": smooth.contact_length}
+    if window is not None:
+        largest = smooth.extremes(friction)
+        values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
+        values["txz_max_abs"] = abs(largest["txz"].value)
+    return QuantitiesOfInterest({name: np.array([value]) for name, value in values.items()})
+
+
+def _rung_of(
+    run: ModelRun, name: str, words: str, figures: tuple[Figure, ...], kind: str = ""
+) -> Rung:
+    """With what a model of the run took."""
+    memory = max(level.peak_memory for level in run.levels)
+    return Rung(name, kind or name, words, figures, sum(run.seconds.values()), memory)
+
+
+def kind_of(effects: Iterable[str]) -> str:
+    kinds = {NONLINEAR.get(name, LINEAR) for name in effects}
+    return next(kind for kind in (FLOW, FINITE, LINEAR) if kind in kinds or kind == LINEAR)
+
+
+def words_of_kind(effects: Iterable[str]) -> str:
+    """The kind of finite elements that have the effects, and the linear ones beside it."""
+    kind, is_finite = kind_of(effects), "finite_strain" in effects
+    beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in NONLINEAR]
+    words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]
+    return f"{words} with {', '.join(beside)}" if beside else words

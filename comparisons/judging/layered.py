@@ -1,0 +1,51 @@
+"""A layer or a coating by two independent models: the analytic operator and finite elements.
+
+In: finite elements of a layered scene, which keep all else that the half-plane assumes. Out: the
+operator's figures, and a judged difference a quantity, (operator - finite elements) / finite
+elements, of one problem. It stands in the place of the half-plane's comparison, whose difference is
+what the layer does."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from comparisons.common.tasks import Tasks
+from comparisons.figures.figure import Figure, Findings
+from comparisons.figures.quantity import COMPARED, QUANTITIES
+from comparisons.judging.comparison import differences_of, norms_of
+from comparisons.judging.contact import uncertainties, values_of
+from comparisons.judging.effects.catalogue import contained
+from comparisons.judging.ladder.operators import why_no_stresses
+from comparisons.judging.ladder.rungs import OPERATORS, OTHER, operator_runs
+from comparisons.judging.study import LAYERED, Solved, Study
+from comparisons.models.nearest_operator import is_layered
+
+OF_LAYERS = {"finite_size", "coating"}
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    problem, finite_elements = solved.problem, solved.runs[OTHER]
+    held = contained(problem.scene)
+    runs, figures = operator_runs(problem, held, finite_elements, solved.window, tasks), []
+    for friction, run in (runs or {}).items():
+        stated = uncertainties(run, problem, friction)
+        for name, value in values_of(run.finest, problem, friction).items():
+            at = {"friction": friction}
+            size = abs(value) or QUANTITIES[name].scale(problem.hertz)
+            figures.append(
+                Figure(LAYERED, name, OPERATORS, value, at, scale=size, uncertainty=stated[name])
+            )
+        rows = [*differences_of(run, finite_elements, problem, friction).values()]
+        rows += norms_of(run, finite_elements, friction, solved.window)
+        figures += [replace(row, study=LAYERED, source=OPERATORS) for row in rows]
+    return Findings(tuple(figures))
+
+
+def applies(solved: Solved) -> bool:
+    """Whether the scene's finite elements have layers and nothing else that no half-plane has."""
+    scene = solved.problem.scene
+    alike = contained(scene) <= OF_LAYERS and scene.body.width is None and not scene.periodic
+    possible = why_no_stresses(solved.problem, solved.window) is None
+    return bool(solved.plan.compares and is_layered(scene) and alike and possible)
+
+
+STUDY = Study(LAYERED, COMPARED, solve, applies=applies)

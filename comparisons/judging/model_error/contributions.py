@@ -1,0 +1,142 @@
+"""What each effect contributes, alone and jointly, on each level: differences of solutions.
+
+With F(S) the finite elements' solution with the effects S, W all of them, k finite deformation,
+c normal-tangential coupling, 0 none:
+
+    an effect i            F({i}) - F(0)
+    finite deformation     F(k + c) - F(c), c only under friction, where sliding traction moves it
+    plastic flow           F(flow + c) - F(c)
+    finite deformation of a body that flows    F(W) - F(W - k)
+    interaction            F(W) - F(0) - the sum of these
+
+These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
+F(W) - F(scene)."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import sub
+
+from comparisons.judging.effects.catalogue import COUPLED, STRAINED, ModelVariant
+from comparisons.judging.effects.selection import NONLINEAR, ORDER, EffectSelection
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.models.problem import Problem
+
+OF_SIZE = ("finite_size", "finite_roller")  # effects that a far boundary has, too
+
+
+class NotComputedError(Exception):
+    """A model variant has no solution; the message says why."""
+
+    def __init__(self, variant: ModelVariant, why: str) -> None:
+        super().__init__(variant, why)
+        self.variant = variant
+
+    def __str__(self) -> str:
+        return " ".join(str(self.args[1]).split())
+
+
+@dataclass(frozen=True)
+class SplitVariants:
+    """The variants that the split takes at one friction coefficient."""
+
+    whole: ModelVariant  # with all effects
+    of_scene: ModelVariant | None  # that stands for the scene's own finite elements, None: these
+    nothing: ModelVariant  # without any effect
+    pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
+
+    @property
+    def wholes(self) -> tuple[ModelVariant, ...]:
+        """Those that the model error takes; the others split it."""
+        return (self.whole,) if self.of_scene is None else (self.whole, self.of_scene)
+
+    @property
+    def held_nearer(self) -> dict[str, ModelVariant]:
+        """By effect of size, what lacks it with its far boundary at half the distance."""
+        sizes = {name: self.pairs[name][1] for name in OF_SIZE if name in self.pairs}
+        return {name: replace(without, half_block=True) for name, without in sizes.items()}
+
+    @property
+    def all(self) -> tuple[ModelVariant, ...]:
+        """Each once, the whole first."""
+        of_pairs = (variant for pair in self.pairs.values() for variant in pair)
+        return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
+
+
+@dataclass(frozen=True)
+class EffectContributions:
+    """At one friction coefficient, on one level."""
+
+    whole: QuantitiesOfInterest  # the finite elements with all effects
+    of_scene: QuantitiesOfInterest  # the scene's own
+    # without any effect; None where nothing is split on this level
+    nothing: QuantitiesOfInterest | None
+    # by effect, the solutions with and without it, as far as there are any
+    pairs: dict[str, tuple[QuantitiesOfInterest, QuantitiesOfInterest]]
+    unsplit: str | None = None  # why there can be no split, else None
+
+    @property
+    def not_contained(self) -> QuantitiesOfInterest:
+        """What the scene's own finite elements lack of the whole."""
+        return self.whole - self.of_scene
+
+    def effect(self, name: str) -> QuantitiesOfInterest:
+        """What an effect changes by itself."""
+        return sub(*self.pairs[name])
+
+    def interaction(self, names: Iterable[str]) -> QuantitiesOfInterest:
+        """What the effects change jointly beyond the sum of the named ones."""
+        return reduce(sub, map(self.effect, names), self.whole - self.nothing)
+
+
+def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
+    """The variants at a friction coefficient, the same on every level."""
+    chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
+    quadratic = problem.scene.finite_element.element != STRAINED and bool(chosen & set(NONLINEAR))
+
+    def variant(effects: frozenset[str]) -> ModelVariant:
+        shaped = effects & {COUPLED, *NONLINEAR} or problem.scene.load.coupled
+        return ModelVariant(effects, friction if shaped else None, quadratic)
+
+    def grown(effects: frozenset[str]) -> frozenset[str]:
+        """With what nonlinear bodies cannot be without."""
+        return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
+
+    nothing, pairs = frozenset(), {}
+    for name in ORDER:
+        if name in chosen:
+            beside = chosen & {COUPLED} if name in NONLINEAR else nothing
+            pairs[name] = variant(grown(beside | {name})), variant(beside)
+    if chosen.issuperset(NONLINEAR):  # what an elastic body would do at finite strain matters less
+        small = variant(grown(chosen - {"finite_strain"}))
+        pairs["finite_strain"] = variant(grown(chosen)), small
+    of_scene = None
+    if quadratic:
+        of_scene = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
+    return SplitVariants(variant(grown(chosen)), of_scene, variant(nothing), pairs)
+
+
+def contributions_of(
+    solved: Callable[[ModelVariant | None], QuantitiesOfInterest],
+    split: SplitVariants,
+    whole_alone: bool = False,
+) -> EffectContributions:
+    """All contributions on a level, or of the `whole_alone`; an effect without a solution by itself
+    counts in the interaction.
+
+    solved  the solution of a variant there, of the scene's own finite elements for None; raises
+            NotComputedError where there is none, which is passed on of the whole"""
+    whole, of_scene = solved(split.whole), solved(split.of_scene)
+    if whole_alone:
+        return EffectContributions(whole, of_scene, None, {})
+    try:
+        nothing = solved(split.nothing)
+    except NotComputedError as error:
+        return EffectContributions(whole, of_scene, None, {}, str(error))
+    pairs = {}
+    for name, (with_it, without) in split.pairs.items():
+        try:
+            pairs[name] = solved(with_it), solved(without)
+        except NotComputedError:
+            continue
+    return EffectContributions(whole, of_scene, nothing, pairs)

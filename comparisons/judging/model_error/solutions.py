@@ -1,0 +1,195 @@
+"""Model variants solved level by level, each once, as tasks of the run."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.problem import ContactError
+from comparisons.common.errors import InputError
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import LATER, Here, Tasks
+from comparisons.figures.quantity import MODELS
+from comparisons.judging.effects.catalogue import (
+    COUPLED,
+    EFFECTS,
+    ModelVariant,
+    contained,
+    is_taken_apart,
+    problem_with,
+)
+from comparisons.judging.effects.selection import NONLINEAR
+from comparisons.judging.model_error.contributions import NotComputedError
+from comparisons.judging.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    quantities_of,
+)
+from comparisons.models.forecast import expected_level
+from comparisons.models.level import ExpectedCost, Level, ModelRun
+from comparisons.models.plan import Plan, make_plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
+
+LEAST_LEVELS = 2  # of the effects
+CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
+
+
+@dataclass
+class SolvedVariants:
+    """Quantities of interest of model variants on the levels of a problem."""
+
+    problem: Problem
+    window: Window | None
+    of_scene: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
+    tasks: Tasks  # that solve the variants
+    # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
+    patches: np.ndarray
+    # by variant, number of the level from 1, and friction coefficient
+    solved: dict[tuple[ModelVariant, int, float], QuantitiesOfInterest] = field(
+        default_factory=dict
+    )
+    # why a variant has no solution, by variant and number of the level
+    failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
+    # by variant, seconds that it took and the largest memory of its process [bytes]
+    took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
+    # the seconds by the laws of cost [s], by variant and number of the level
+    expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
+    # the variants whose finest level is kept, with its fields; by these, the level
+    wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        scene = self.problem.scene
+        self._own_effects = contained(scene) if is_taken_apart(scene) else None
+
+    def solution(
+        self, variant: ModelVariant | None, number: int, friction: float
+    ) -> QuantitiesOfInterest:
+        """Of a variant on a level, None for the scene's own finite elements, solved where it is
+        new; raises NotComputedError."""
+        if variant is None or self._is_own(variant):
+            return quantities_of(self.of_scene.levels[number - 1], self.problem, friction)
+        self.prepare([variant], number)
+        if (variant, number) in self.failed:
+            raise self.failed[variant, number]
+        return self.solved[variant, number, friction]
+
+    def prepare(self, asked: Iterable[ModelVariant], number: int) -> None:
+        """Solve the variants that are new on a level."""
+        for variant, key in self.announce(asked, number):
+            try:
+                self._keep(variant, number, self.tasks.result(key))
+            except NotComputedError as error:
+                self.failed[variant, number] = error
+
+    def announce(
+        self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
+    ) -> list[tuple[ModelVariant, str]]:
+        """Make those that are new on a level known to the tasks; each with its task's key."""
+        new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
+        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
+        return [(variant, self._add(variant, number, urgency)) for variant in new]
+
+    def is_open(self, variant: ModelVariant, number: int) -> bool:
+        """Whether a level of a variant is yet to be solved."""
+        frictions = self.problem.scene.load.friction
+        solved = any((variant, number, mu) in self.solved for mu in frictions)
+        return not (self._is_own(variant) or solved or (variant, number) in self.failed)
+
+    def expected_of(self, number: int, asked: Iterable[ModelVariant] | None = None) -> float:
+        """Seconds that the variants of a level take by the laws of cost, or those asked for."""
+        known = {
+            variant: cost for (variant, level), cost in self.expected.items() if level == number
+        }
+        return math.fsum(known.get(variant, 0.0) for variant in (known if asked is None else asked))
+
+    def forecast(self, variant: ModelVariant, number: int) -> float:
+        """Seconds that a level of a variant takes by the laws of cost."""
+        return self._posed(variant, number)[-1].seconds
+
+    def keep(self, wholes: Iterable[ModelVariant]) -> None:
+        """Take these for `wholes`, from their first level on."""
+        self.wholes = dict.fromkeys(wholes)
+        self.solved = {key: kept for key, kept in self.solved.items() if key[0] not in self.wholes}
+
+    def finest(self, variant: ModelVariant) -> Level:
+        """The finest level of one of the `wholes`."""
+        return self.of_scene.finest if self._is_own(variant) else self.wholes[variant]
+
+    def _is_own(self, variant: ModelVariant) -> bool:
+        there, effects = self.problem.scene.load.friction, self._own_effects
+        if effects is not None and variant.friction == 0.0:
+            effects = effects - {COUPLED}
+        shaped = variant.friction is None or variant.friction in there
+        changed = variant.quadratic or variant.laws or variant.times > 1 or variant.half_block
+        return shaped and not changed and variant.effects == effects
+
+    def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
+        whole = variant in self.wholes
+        key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
+        problem, plan, pitch, cost = self._posed(variant, number)
+        self.expected.setdefault((variant, number), cost.seconds)
+        shown = whole and number >= LEAST_LEVELS  # it may be the finest
+        work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=shown)
+        size = {"seconds": cost.seconds, "memory": cost.memory}
+        self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
+        return key
+
+    def _posed(
+        self, variant: ModelVariant, number: int
+    ) -> tuple[Problem, Plan, float, ExpectedCost]:
+        """Problem, plan, pitch [m] and cost of a variant on a level."""
+        problem = problem_with(self.problem, variant)
+        plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
+        cost = expected_level("finite_element", problem, plan, pitch, self.patches)
+        return problem, plan, pitch, cost
+
+    def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
+        """Note the solution of a variant on a level."""
+        seconds = sum(level.seconds.values())
+        before, memory = self.took.get(variant, (0.0, 0))
+        self.took[variant] = before + seconds, max(memory, level.peak_memory)
+        if variant in self.wholes:
+            self.wholes[variant] = level
+        self.expected[variant, number] = level.expected_seconds
+        problem = problem_with(self.problem, variant)
+        for coefficient in problem.scene.load.friction:
+            self.solved[variant, number, coefficient] = quantities_of(level, problem, coefficient)
+
+
+def _solved(
+    here: Here,
+    variant: ModelVariant,
+    number: int,
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    fields: bool,
+) -> Level:
+    """A variant's `problem` on a level, with its `fields` on window and mesh where asked; raises
+    NotComputedError."""
+    from comparisons.models.finite_element.bodies import BodyCache
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+    from fem.nonlinear.press_plastic import TRAVEL
+
+    words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
+    words = f"with {words}, level {number}"
+    pitch = problem.pitches[0] / 2.0 ** (number - 1)
+    body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
+    refinement = Refinement(pitch, variant.half_block, variant.times * TRAVEL)
+    stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
+    how = refinement, window, stages, body_cache
+    try:
+        level = finite_element_level(problem, plan, *how, fields=fields)
+    except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
+        raise NotComputedError(variant, str(error)) from error
+    if not level.converged:
+        raise NotComputedError(variant, f"the contact did not converge on level {number}")
+    low, high = problem.extent
+    if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:
+        raise NotComputedError(variant, "the contact reaches the end of the pressures")
+    return level

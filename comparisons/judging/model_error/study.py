@@ -1,0 +1,118 @@
+"""The half-plane's model error: what separates it from finite elements with every effect.
+
+In: the comparison of both models, the couplings. Out: a judged figure a quantity, its effects, and
+the whole model's levels. The effects begin as soon as the half-plane is solved, whose answer is
+said then, beside estimates of what it leaves out."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from comparisons.common.numbers import with_unit
+from comparisons.common.progress import Early
+from comparisons.common.tasks import Tasks
+from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.judging import comparison, coupling
+from comparisons.judging.contact import values_of
+from comparisons.judging.coupling import Coupling
+from comparisons.judging.effects.catalogue import EFFECTS
+from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.model_error import show
+from comparisons.judging.model_error.account import NAME, effect_account, findings_of
+from comparisons.judging.model_error.error_budget import (
+    announce_effects,
+    error_budget,
+    mean_pressure,
+    selected_effects,
+)
+from comparisons.judging.study import Solved, Study
+from comparisons.judging.yielding import flow_assessment, flows_at_such
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+
+SAID_EARLY = ("peak_pressure", "contact_length", "tau1_max")
+
+
+def begin(solved: Solved, tasks: Tasks) -> None:
+    """Announce the effects once the half-plane is solved, and say what it answers; with the finite
+    elements beside it, which then leave a figure open, the whole model's further levels, too."""
+    if "half_plane" in solved.runs:
+        more = tasks.held(NAME, NAME, lambda: _announced(solved, tasks))
+        if "finite_element" in solved.runs:
+            more()
+
+
+def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
+    """Which effects a run of both models will compute, and which matter and cannot be, as the
+    half-plane selects them."""
+    if not solved.plan.compares:
+        return []
+    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
+    selection = selected_effects(solved, moved)
+    account = {name: effect_account(name, selection) for name in EFFECTS}
+    flows = flows_at_such(solved.problem.scene, flow_assessment(solved.problem, solved.runs))
+    lines = [f"flow: {flows}"] if flows else []
+    for status in ("computed", "not computed"):
+        names = [name for name, (what, _) in account.items() if what == status]
+        why = {name: f" ({account[name][1]})" if status != "computed" else "" for name in names}
+        named = ", ".join(f"{EFFECTS[name].label}{why[name]}" for name in names)
+        lines += [f"effects {status}: {named}"] if named else []
+    return lines
+
+
+def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
+    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
+    more = announce_effects(solved, moved, tasks)
+    for line in early_lines(solved.problem, solved.runs["half_plane"].finest, moved):
+        tasks.callback(Early(line))
+    return more
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
+    moved = before[coupling.NAME].data if coupling.NAME in before else ()
+    budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
+    return findings_of(budget, solved.problem)
+
+
+def early_lines(
+    problem: Problem, level: Level, couplings: tuple[Coupling, ...] = ()
+) -> tuple[str, str]:
+    """The half-plane's figures on a level, at the largest friction coefficient, and what it may
+    leave out, by estimates: these are larger than what they stand for, and no verdict.
+
+    couplings  of the half-plane, where they are known"""
+    friction, scene = max(problem.scene.load.friction), problem.scene
+    known = values_of(level, problem, friction)
+    figures = {name: known[name] for name in SAID_EARLY if name in known}
+    said = [
+        f"{QUANTITIES[name].short} {with_unit(value, QUANTITIES[name].unit)}"
+        for name, value in figures.items()
+    ]
+    # half-planes do not flow, though the scene's finite elements may
+    flow = False if scene.finite_element.plastic is False else None
+    elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": flow}))
+    pressure = level.under(friction).solution.pressure
+    every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
+    sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
+    left = []
+    for name in figures:
+        total = sum(of.get(name, 0.0) for of in sizes.values())
+        size = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"
+        left.append(f"{QUANTITIES[name].short} {size}")
+    most = max(sizes, key=lambda effect: max(sizes[effect].get(name, 0.0) for name in figures))
+    return (
+        f"half-plane: {', '.join(said)}",
+        f"left out, by estimates at most: {', '.join(left)}, mostly {EFFECTS[most].label}",
+    )
+
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    applies=lambda solved: solved.plan.compares,
+    begin=begin,
+    blocks=show.blocks,
+    pictures={"model_error": show.model_error_picture},
+    lines=show.lines,
+)

@@ -1,0 +1,309 @@
+"""What to do next: a sentence, and the command that does it.
+
+In: a run and its verdict. Out: of what would decide or improve it the best that the scene takes.
+Each offer is held to the scene's own rules before it is printed: what they refuse, what is done
+already, and what would not compute what it speaks of is passed over, and the next best comes up."""
+
+import math
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from analytic.contact.problem import ContactError
+from comparisons.common.errors import InputError
+from comparisons.common.numbers import percent_as_written, with_unit
+from comparisons.common.progress import machine_memory
+from comparisons.figures.figure import Figure, nearest_to_tolerance
+from comparisons.figures.quantity import HYPHENATED
+from comparisons.judging import yielding
+from comparisons.judging.effects.catalogue import EFFECTS, contained
+from comparisons.judging.effects.estimates import TABOR
+from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.sampling import EFFECT as SAMPLING
+from comparisons.judging.effects.selection import FLOW, why_not
+from comparisons.judging.model_error.account import INPUTS
+from comparisons.judging.study import MODEL_ERROR, Run
+from comparisons.judging.verdict.whole import figures_of_whole
+from comparisons.judging.verdict.within import rounded_up
+from comparisons.models.forecast import time_with_flow, with_one_more
+from comparisons.models.posing import problem_of
+from comparisons.scenes.materials import (
+    Solid,
+    kinds_like,
+    kinds_of,
+    measured_solids,
+    solids,
+    typical_range,
+)
+from comparisons.scenes.scene import settings_of, with_law, with_settings, with_tolerance
+from comparisons.scenes.sections import ElasticSection
+
+AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
+PLASTIC = "finite_element.plastic=true"
+MORE_SAMPLES = "a trace with more samples on the contact"
+
+
+@dataclass(frozen=True)
+class Offer:
+    """One thing to do, in words without a full stop: fields to set and options of the command."""
+
+    says: str
+    settings: tuple[str, ...] = ()  # FIELD=VALUE
+    options: Mapping[str, str] = field(default_factory=dict)
+    computes: str = ""  # the effect that it is to compute
+    is_known: bool = True  # whether the values are: else the user puts in his own
+    or_linear: bool = False  # whether linear elasticity may be the question in its place
+
+
+LINEAR = Offer("--law linear, within linear elasticity", options={"--law": "linear"})
+
+
+def next_of(run: Run, kind: str) -> tuple[Offer, ...]:
+    """What would decide or improve a verdict of a kind; another question after it."""
+    offers = (offer for offer in _candidates(run, kind) if offered(run, offer))
+    best = next(offers, Offer("a lighter load or a smoother surface"))
+    return (best, LINEAR) if best.or_linear and offered(run, LINEAR) else (best,)
+
+
+def offered(run: Run, offer: Offer) -> bool:
+    """Whether a run's scene takes what is offered, is another one then, and what the offer is to
+    compute can be computed there. What changes nothing is but a sentence."""
+    scene = run.problem.scene
+    if not (offer.settings or offer.options):
+        return True
+    try:
+        changed = with_settings(scene, offer.settings)
+        if "--law" in offer.options:
+            changed = with_law(changed, offer.options["--law"])
+        if "--tolerance" in offer.options:
+            changed = with_tolerance(changed, float(offer.options["--tolerance"]))
+        posed = problem_of(changed, run.problem.surface, run.problem.hertz.load_per_length)
+    except (InputError, ContactError):
+        return False
+    is_new = changed.tables != scene.tables or "--models" in offer.options
+    wanted = {offer.computes} - {"", *contained(changed)}
+    return is_new and not any(why_not(effect, posed) for effect in wanted)
+
+
+def pasted(run: Run, offer: Offer) -> tuple[str, ...]:
+    """The run's own command with what is offered, for a shell; for Python where none was typed.
+    None of one whose words no text holds, such as a file's name in another encoding."""
+    scene = run.problem.scene
+    is_text = all(map(str.isprintable, scene.command))
+    if not (offer.settings or offer.options) or not (offer.is_known and is_text):
+        return ()
+    if words := scene.command:
+        for text in offer.settings:
+            words = (*_without(words, "--set", text.partition("=")[0]), "--set", text)
+        for option, value in offer.options.items():
+            words = (*_without(words, option), option, value)
+        return (shlex.join(words),)
+    fields = settings_of(scene, offer.settings)
+    asked = [f"scene.changed({fields!r})" if fields else "scene"]
+    if "--tolerance" in offer.options:
+        asked.append(f"tolerance={offer.options['--tolerance']}")
+    if "--law" in offer.options:
+        asked.append(f"law={offer.options['--law']!r}")
+    return (f"crosscheck.run({', '.join(asked)})",)
+
+
+def _without(words: Sequence[str], option: str, name: str = "") -> list[str]:
+    """The words of a command without an option and its value; of one that sets fields, without that
+    of a name."""
+    kept, rest = [], iter(words)
+    for word in rest:
+        given, equals, value = word.partition("=")
+        if given != option:
+            kept.append(word)
+            continue
+        value = value if equals else next(rest, "")
+        if name and value.partition("=")[0].strip() != name:
+            kept += [option, value]
+    return kept
+
+
+def worst_of(run: Run) -> Figure:
+    """The error that is farthest from a verdict that holds."""
+    return nearest_to_tolerance([error for error in run.model_errors if error.verdict != "holds"])
+
+
+def _candidates(run: Run, kind: str) -> Iterator[Offer]:
+    """What may be done, the best first. What changes nothing can always be said."""
+    if kind == "not converged":
+        yield from _finer_pressures(run)
+    elif kind == "not compared":
+        both = {"--models": ",".join(HYPHENATED.values())}
+        yield Offer("both models show how far to trust either", options=both)
+    elif run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
+        why = run.data(MODEL_ERROR).selection.impossible.get(FLOW, "")
+        yield from _of_effect(run, FLOW)
+        yield Offer(f"a scene whose flow can be computed{why and f': {why}'}")
+    elif not run.model_errors:
+        yield Offer("a tolerance to judge by, such as tolerance.peak_pressure = 0.02")
+    elif kind == "inconclusive":
+        yield from _of_open(run, worst_of(run))
+    else:
+        if unknown := yielding.may_flow(run, at_any=kind == "fails"):
+            stress, said, is_known = _typical_stress(run)
+            words = f"body.yield_stress: {unknown}{said * is_known}"
+            yield Offer(words, (f"body.yield_stress={stress}",), is_known=is_known)
+        whole = f"{figures_of_whole(run)} in place of the half-plane's"
+        yield Offer("nothing" if kind == "holds" else whole)
+
+
+def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:
+    """What would decide an error: its largest unknown computed, or a smaller uncertainty; else the
+    tolerance at which it holds."""
+    largest = max(worst.unknown, key=worst.unknown.get, default="")
+    why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
+    because = f"{EFFECTS[largest].label} is not computed: {why}" if why else ""
+    if not worst.is_unresolved and largest:
+        yield from _of_effect(run, largest)
+        because = f"{MORE_SAMPLES} tells more" if largest == SAMPLING else because
+        because = because or (_unknown_law(run) if largest == LAW else "")
+    elif worst.uncertainty.parts.get(INPUTS, 0.0) > 0.5 * worst.numerical:
+        because = "third-order constants are measured no better"
+    elif worst.total <= AT_TOLERANCE * worst.tolerance:
+        because = "the error lies at the tolerance, and more digits decide nothing that matters"
+    else:
+        yield from _finer_levels(run)
+    if math.isfinite(reach := max(error.reach for error in run.model_errors)):
+        holds_at = rounded_up(reach)
+        said = f"a tolerance of {percent_as_written(holds_at)} holds{because and f'; {because}'}"
+        options = {"--tolerance": f"{holds_at:g}"}
+        yield Offer(said, options=options, or_linear=largest == LAW and not worst.is_unresolved)
+    if largest == SAMPLING:
+        yield Offer(MORE_SAMPLES)
+    if largest == FLOW:
+        yield LINEAR
+
+
+def _of_effect(run: Run, name: str) -> Iterator[Offer]:
+    """What computes an effect."""
+    selection = run.data(MODEL_ERROR).selection
+    why = selection.impossible.get(name, "")
+    if "budget.effects" in why:
+        asked = "true" if "not asked for" in why else "all"
+        yield Offer("budget.effects computes it", (f"budget.effects={asked}",), computes=name)
+    seconds = selection.time if name == "finite_strain" else 0.0
+    if name == FLOW and "budget.time" in why:
+        patches = run.runs["half_plane"].levels[0].patches
+        seconds = time_with_flow(run.problem, run.plan, patches)
+    if seconds:
+        text = f"budget.time={rounded_up(seconds):g}"
+        yield Offer("budget.time computes it", (text,), computes=name)
+    if name == FLOW:
+        yield from _of_flow(run)
+    elif name == LAW:
+        yield from _of_law(run)
+    elif name == "roller_support":
+        said = 'roller.support is what holds the roller: "opposite", "half disc" or {hub = …}'
+        yield Offer(said, ("roller.support=opposite",))
+
+
+def _of_flow(run: Run) -> Iterator[Offer]:
+    """A yield stress, the switch, and a load in place of an approach, as far as they are needed."""
+    stress, said, is_known = _typical_stress(run)
+    given = () if run.problem.scene.body.yield_stress else (f"body.yield_stress={stress}",)
+    load = f"load.per_length={run.problem.hertz.load_per_length:.6g}"
+    for way in (*[()] * bool(given and run.plan.effects), (PLASTIC,), (load, PLASTIC)):
+        settings = (*given, *way)
+        fields = ", ".join(text.partition("=")[0] for text in settings)
+        words = f"the flow is computed with {fields}{said * bool(given)}"
+        yield Offer(words, settings, {}, FLOW, is_known, or_linear=bool(given))
+
+
+def _typical_stress(run: Run) -> tuple[str, str, bool]:
+    """A yield stress as text, what is to be said of it, and whether it may stand for the body's: by
+    the hardness or by the solid; of a class of solids it is but an example."""
+    body = run.problem.scene.body
+    if body.yield_stress is not None:
+        return f"{body.yield_stress:g}", "", True
+    if body.hardness is not None:
+        stress = _in_mpa(body.hardness / TABOR)
+        return stress, f"; {stress} is a third of the hardness, put in yours", True
+    known = solids()[body.solid].typical.get("yield_stress") if body.solid else None
+    if known is not None:
+        stress = _in_mpa(known.value)
+        return stress, f"; {stress} is typical, put in yours", True
+    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
+    if (typical := typical_range("yield_stress", None, kinds)) is None:
+        return _in_mpa(yielding.STIFF), "", False
+    low, high = (with_unit(end, "Pa", 2) for end in typical)
+    return (
+        _in_mpa(sum(typical) / 2.0),
+        f"; typical of {' or '.join(kinds)} is {low} to {high}",
+        False,
+    )
+
+
+def _in_mpa(stress: float) -> str:
+    return f"{stress / 1e6:.4g} MPa"
+
+
+def _of_law(run: Run) -> Iterator[Offer]:
+    """The solids that bodies without a name may be, with their own moduli, to which measured
+    constants belong."""
+    bodies = _bodies_of_open_law(run)
+    like = {name: _like(part) for name, part in bodies.items() if part.solid is None}
+    if like and all(like.values()):
+        fields = " and ".join(f'{name}.material = "{solid.name}"' for name, solid in like.items())
+        settings = [
+            f"{name}.{text}"
+            for name, solid in like.items()
+            for text in (f"material={solid.name}", *_moduli(bodies[name], solid))
+        ]
+        said = f"{fields}, or what it is (crosscheck materials), with its moduli"
+        yield Offer(said, tuple(settings), or_linear=True)
+
+
+def _bodies_of_open_law(run: Run) -> dict[str, ElasticSection]:
+    """By name, the bodies between whose laws of elasticity an error lies."""
+    laws = run.data(MODEL_ERROR).selection.laws
+    names = dict.fromkeys(name for law in laws if not law.is_scatter for name in law.bodies)
+    return {name: getattr(run.problem.scene, name) for name in names}
+
+
+def _moduli(section: ElasticSection, solid: Solid) -> list[str]:
+    """Those of a solid in place of others that a section has, each FIELD=VALUE."""
+    values = {name: getattr(section, name) for name in ("youngs_modulus", "poissons_ratio")}
+    return [f"{n}={solid.values[n].value!r}" for n, v in values.items() if not solid.agrees(n, v)]
+
+
+def _like(section: ElasticSection) -> Solid | None:
+    """A measured solid of the class that a body may be of."""
+    kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
+    return next((solid for solid in measured_solids(*kinds) if solid.kind in kinds), None)
+
+
+def _unknown_law(run: Run) -> str:
+    """Why the law of elasticity is not known better."""
+    bodies = _bodies_of_open_law(run)
+    named = dict.fromkeys(part.solid for part in bodies.values())
+    if None in named:
+        return f"{' and '.join(bodies)}.material would narrow it, where it is known"
+    return f"no third-order constants of {' or '.join(named)} are published" if named else ""
+
+
+def _finer_levels(run: Run) -> Iterator[Offer]:
+    """The time and the memory of one more level of each model."""
+    budget = run.problem.scene.budget
+    seconds, memory = with_one_more(run.problem, run.plan, run.window, run.runs)
+    wanted = {"memory": rounded_up(memory)} if memory > budget.memory else {}
+    if seconds > budget.time or not wanted:
+        wanted["time"] = max(2.0 * budget.time, rounded_up(seconds))
+    if memory <= machine_memory():
+        fields = " and ".join(f"budget.{name}" for name in wanted)
+        settings = tuple(f"budget.{name}={size:g}" for name, size in wanted.items())
+        yield Offer(f"{fields} for finer levels and a smaller uncertainty", settings)
+
+
+def _finer_pressures(run: Run) -> Iterator[Offer]:
+    """Pressure elements of half the size, by whichever field the scene says it."""
+    asked = run.problem.scene.resolution
+    for settings in (
+        f"resolution.pitch={0.5 * run.problem.pitches[0]:.6g}",
+        f"resolution.elements={2.0 * (asked.elements or 1.0):g}",
+        f"resolution.nodes={2 * (asked.nodes or 1)}",
+    ):
+        yield Offer("finer pressures may converge; else a lighter load", (settings,))

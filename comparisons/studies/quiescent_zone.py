@@ -1,0 +1,291 @@
+"""The quiescent zone: a layer of low shear between the asperities' zone and the Hertz zone.
+
+In: the fields of a solved scene with a rough surface. Out: the dip's figures by model and friction,
+its state, and the asperities that bridge it.
+
+    f(z)    root mean square of tau1 over |x| <= a at the depth z: f^2 is the mean density of the
+            shear energy in the plane times 2 G
+    f_H     largest f from DEEP a on: the Hertz zone
+    f_q     least f of the dip between f_H and a shallower maximum f_A, the asperities' zone; of
+            several dips the one that falls farthest below both
+    level   f_q / f_H                 ratio   f_q / min(f_A, f_H)
+
+The zone reaches over the depths about the least f where f < QUIET min(f_A, f_H). It is
+
+    quiescent         ratio < QUIET
+    no asperity zone  else, and level < QUIET: shear grows with depth as below smooth bodies
+    bridged           else: from the asperities down it falls nowhere below QUIET of both; f_q is
+                      then the least f below the largest one
+
+and inconclusive where the uncertainty of the ratio reaches across QUIET. A mean square has no edge
+or peak that a mesh or a window could miss, every depth and place counts alike in both models, and
+nothing says beforehand how deep asperities reach. The same rule on the largest tau1 below a single
+asperity tells which of them bridge the zone.
+
+QUIET is three quarters: by Lundberg and Palmgren, life goes with tau^-9.3 (c/e = 31/3 : 10/9), and
+a quarter less shear lasts an order of magnitude longer."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf, isfinite, nan
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from comparisons.common.numbers import plain, significant
+from comparisons.drawing.blocks import Block, Heading, Note, TextTable, stated
+from comparisons.figures.convergence import grid_convergence
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.quantity import LABELS, Quantity
+from comparisons.figures.uncertainty import Uncertainty, iteration
+from comparisons.judging.contact import by_repetition
+from comparisons.judging.study import WHY_NOT, Run, Solved, Study
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+
+NAME = "quiescent_zone"
+QUANTITIES = {  # the figures of a ShearDip
+    "level": Quantity("least shear over the Hertz zone's"),
+    "ratio": Quantity("least shear over the smaller maximum"),
+    "depth": Quantity("depth of the least shear", "m"),
+    "start": Quantity("where the quiescent zone starts", "m"),
+    "stop": Quantity("where the quiescent zone stops", "m"),
+    "asperity": Quantity("largest shear of the asperities' zone", "Pa"),
+    "asperity_depth": Quantity("its depth", "m"),
+    "hertz": Quantity("largest shear of the Hertz zone", "Pa"),
+    "hertz_depth": Quantity("its depth", "m"),
+}
+STATE, ASPERITIES = "state", "asperities"
+NOTE = """The layer of low shear between the asperities' stresses and those of the Hertz
+contact, where the root mean square of τ₁ over |x| ≤ a is less than three quarters of its maxima
+above and below; shaded in the sections. Bridged: it is less nowhere on the way down. No asperity
+zone: it grows with depth as below smooth bodies. An asperity bridges the zone where the largest τ₁
+below it does not fall so far."""
+QUIET = 0.75
+QUIESCENT, BRIDGED, SMOOTH, UNCLEAR = "quiescent", "bridged", "no asperity zone", "inconclusive"
+DEEP = 0.5  # a: where the Hertz zone begins
+FINE = 16  # points to an interval of depth, between which the spline through it is searched
+ORDER = 1.0  # formal, as of the fields' norms
+DEEPEST = 0.8  # a: as far down the Hertz zone's maximum may lie, and the fields must reach
+SHORT = 0.02  # of what they must reach to, by which they may end before
+
+
+@dataclass(frozen=True)
+class ShearDip:
+    """Shear over depth between two maxima, on any scales of both."""
+
+    level: float  # as above
+    ratio: float
+    depth: float  # of the least shear
+    start: float  # of the zone; nan where there is none, as the stop
+    stop: float
+    asperity: float  # the maxima of both zones
+    asperity_depth: float
+    hertz: float
+    hertz_depth: float
+    status: str  # quiescent | bridged | no asperity zone
+
+
+def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
+    """The dip of `shear` (m,) over depths z (m,), ascending from the surface; the Hertz zone's
+    maximum is sought from `deep` on. Between the points runs a C2 cubic spline, searched at FINE
+    points an interval."""
+    known = np.isfinite(shear)
+    places = np.arange(np.count_nonzero(known), dtype=float)
+    between = np.linspace(0.0, places[-1], FINE * (len(places) - 1) + 1)
+    spline = CubicSpline(z[known], shear[known])
+    z = np.interp(between, places, z[known])
+    bottom = int(np.argmax(np.where(z >= deep, spline(z), -inf)))
+    z, shear = z[: bottom + 1], spline(z[: bottom + 1])
+    hertz, peak = shear[-1], int(np.argmax(shear))
+    low = int(np.argmax(np.minimum(np.maximum.accumulate(shear), hertz) - shear))
+    top = int(np.argmax(shear[: low + 1]))
+    if peak < bottom and shear[low] >= QUIET * min(shear[top], hertz):
+        low, top = peak + int(np.argmin(shear[peak:])), peak
+    least = min(shear[top], hertz)
+    level = shear[low] / hertz if hertz > 0.0 else 1.0
+    ratio = shear[low] / least if least > 0.0 else 1.0
+    ends, status = (nan, nan), SMOOTH if level < QUIET else BRIDGED
+    if ratio < QUIET:
+        status, loud = QUIESCENT, np.flatnonzero(shear >= QUIET * least)
+        above, below = loud[loud < low][-1], loud[loud > low][0]
+        pairs = [above + 1, above], [below - 1, below]
+        ends = tuple(np.interp(QUIET * least, shear[pair], z[pair]) for pair in pairs)
+    numbers = (level, ratio, z[low], *ends, shear[top], z[top], hertz, z[-1])
+    return ShearDip(*map(float, numbers), status)
+
+
+def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 1) -> np.ndarray:
+    """Root mean square (m,) of tau1 (m, k) over |x| <= a, on every n-th column of the window; of
+    what lies in the body where its boundary is rough."""
+    a, x = problem.hertz.half_width, window.x[::every]
+    half = 0.5 * (x[1] - x[0])
+    weights = np.clip(np.minimum(x + half, a) - np.maximum(x - half, -a), 0.0, None)
+    square = tau1[:, ::every] ** 2
+    inside = np.where(np.isfinite(square), weights, 0.0)
+    with np.errstate(invalid="ignore"):
+        return np.sqrt(np.sum(np.nan_to_num(square) * inside, axis=1) / np.sum(inside, axis=1))
+
+
+def zone_of(
+    problem: Problem, level: Level, window: Window, friction: float, every: int = 1
+) -> ShearDip:
+    """Of one level, read on every n-th row and column of the window; Pa and m."""
+    tau1 = level.stress(friction).field.tau1[::every]
+    shear = mean_shear(problem, window, tau1, every)
+    return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
+
+
+def asperity_rows(
+    problem: Problem, level: Level, window: Window, friction: float
+) -> list[dict[str, object]]:
+    """By each asperity that touches at |x| <= a, its zone as wide as it: place and length of its
+    contact [m], and the dip of the largest shear below it."""
+    a, tau1 = problem.hertz.half_width, level.stress(friction).field.tau1
+    rows, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
+    for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
+        columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
+        patches = np.clip(level.patches, max(start, -a), min(stop, a))
+        lengths = np.diff(patches, axis=1)[:, 0]
+        length = float(lengths.sum())
+        if not np.any(columns) or length <= 0.0:
+            continue
+        shear = np.max(tau1[:, columns], axis=1)
+        dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
+        place = float(lengths @ patches.mean(axis=1) / length)
+        rows.append({"x": place, "length": length, "level": dip.level, "state": dip.status})
+    return rows
+
+
+def zone_figures(
+    problem: Problem, run: ModelRun, window: Window, friction: float
+) -> tuple[tuple[Figure, ...], str]:
+    """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
+    boundary, iteration, and what reading every second row and column of the window changes."""
+
+    def read(level: Level) -> dict[str, float]:
+        dip = zone_of(problem, level, window, friction)
+        return {name: getattr(dip, name) for name in QUANTITIES}
+
+    run = run.under(friction)
+    levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
+    dip, coarse = (zone_of(problem, run.finest, window, friction, every) for every in (1, 2))
+    figures = []
+    for name in QUANTITIES:
+        values, value = tuple(level[name] for level in levels), getattr(dip, name)
+        size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
+        size += iteration(run.finest.solution) * abs(value) + abs(getattr(coarse, name) - value)
+        size = float(size + sum(repeated[name]))
+        if isfinite(value):
+            scale = abs(value) or 1.0
+            unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
+            named = NAME, name, run.name, value, {"friction": friction}
+            figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
+        if name == "ratio":
+            is_unclear = abs(value - QUIET) <= size
+    return tuple(figures), UNCLEAR if is_unclear else dip.status
+
+
+def needs(solved: Solved) -> str | None:
+    """Why the field does not show a zone, None where it does."""
+    window, half_width = solved.window, solved.problem.hertz.half_width
+    if solved.problem.scene.periodic:
+        return "below a periodic surface there is no Hertz zone"
+    ends = min(window.x[-1], -window.x[0]), window.z[-1]
+    for name, end, least in zip(("half_range", "depth"), ends, (1.0, DEEPEST), strict=True):
+        if end < least * half_width * (1.0 - SHORT):
+            return f"stress.{name} is less than {least:g} a"
+    return None
+
+
+def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
+    """Of every model at every friction coefficient: the dip, and those below single asperities."""
+    problem, window, figures, series, states = solved.problem, solved.window, [], [], []
+    units = {"x": "m", "length": "m", "level": "", "state": ""}.items()
+    for name, run in solved.runs.items():
+        for friction in problem.scene.load.friction:
+            at = {"friction": friction}
+            of_zone, state = zone_figures(problem, run, window, friction)
+            figures += of_zone
+            states.append(Statement(STATE, state, name, at))
+            rows = asperity_rows(problem, run.finest.under(friction), window, friction)
+            columns = {key: Column(tuple(row[key] for row in rows), unit) for key, unit in units}
+            series.append(Series(ASPERITIES, columns, name, at))
+    return Findings(tuple(figures), tuple(series), tuple(states))
+
+
+@dataclass(frozen=True)
+class Zone:
+    """One model's zone at one friction coefficient, for whoever shows it."""
+
+    model: str
+    friction: float
+    state: str
+    figures: dict[str, Figure]  # by quantity, as far as there are any
+    bridged: int  # so many of the asperities
+    asperities: int
+
+
+def zones_of(findings: Findings | None) -> list[Zone]:
+    """By model, then by friction coefficient."""
+    zones = []
+    for said in findings.statements if findings else ():
+        if said.name == STATE:
+            known = (f for f in findings.figures if (f.source, f.at) == (said.source, said.at))
+            states = findings.table(ASPERITIES, said.source, **said.at).columns["state"].values
+            figures, friction = {f.quantity: f for f in known}, said.at["friction"]
+            counts = states.count(BRIDGED), len(states)
+            zones.append(Zone(said.source, friction, said.text, figures, *counts))
+    return zones
+
+
+def blocks(run: Run) -> list[Block]:
+    """A table with a row for each friction coefficient and model."""
+    findings, a = run.findings[NAME], run.problem.hertz.half_width
+    heading = Heading("Quiescent zone")
+    if (why := findings.said(WHY_NOT)) is not None:
+        table = TextTable("Not measured", ("because",), ((why,),))
+        return [Block("stresses", (heading, table, Note(NOTE)))]
+    rows = [
+        (
+            *(plain(zone.friction), LABELS[zone.model], zone.state),
+            *(stated(zone.figures.get(name), a) for name in ("start", "stop", "depth")),
+            *(stated(zone.figures.get(name)) for name in ("level", "ratio")),
+            f"{zone.bridged} of {zone.asperities}",
+        )
+        for zone in sorted(zones_of(findings), key=lambda zone: zone.friction)
+    ]
+    head = ("friction", "model", "", "from, z/a", "to, z/a", "least shear at, z/a")
+    head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
+    table = TextTable("Mean shear between asperities and Hertz zone", head, tuple(rows))
+    return [Block("stresses", (heading, table, Note(NOTE)))]
+
+
+def lines(run: Run) -> list[tuple[str, str]]:
+    """The first model's zone at every friction coefficient."""
+    zones, a = zones_of(run.findings[NAME]), run.problem.hertz.half_width
+    said = "; ".join(_said(zone, a) for zone in zones if zone.model == zones[0].model)
+    return [("quiescent zone", said)] if said else []
+
+
+def _said(zone: Zone, a: float) -> str:
+    words = zone.state
+    if words == QUIESCENT:
+        ends = (significant(zone.figures[name].value / a, 3) for name in ("start", "stop"))
+        words = f"{' a to '.join(ends)} a deep"
+    if words != BRIDGED and zone.bridged:
+        words += f", bridged under {zone.bridged} of {zone.asperities} asperities"
+    level = significant(zone.figures["level"].value, 3)
+    return f"friction {plain(zone.friction)}: {words}, least shear {level} of the Hertz zone's"
+
+
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    applies=lambda solved: solved.problem.scene.profile is not None and solved.window is not None,
+    needs=needs,
+    solve=solve,
+    blocks=blocks,
+    lines=lines,
+)

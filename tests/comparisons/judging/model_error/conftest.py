@@ -1,0 +1,58 @@
+"""Scenes that budgets are made for, and model variants without finite elements."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from scenes import STEEL, changed, problem
+
+from comparisons.judging.effects.catalogue import ModelVariant
+from comparisons.judging.model_error.contributions import NotComputedError
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.models.problem import Problem
+
+BASE = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 2e9},
+}
+
+
+@pytest.fixture(scope="session")
+def problem_with() -> Callable[..., Problem]:
+    """`problem_with(body={…}, load={…}, …)`: smooth steel bodies, with other or further tables."""
+
+    def made(**tables: dict) -> Problem:
+        merged = changed(BASE, **tables)
+        if merged["roller"].get("rigid"):
+            merged["roller"] = {"radius": merged["roller"]["radius"], "rigid": True}
+        return problem(merged)
+
+    return made
+
+
+@dataclass
+class MadeSolutions:
+    """Solutions drawn at random, the same whenever the same variant is asked for.
+
+    without  variants that have no solution
+    """
+
+    of_scene: ModelVariant
+    without: frozenset[ModelVariant] = frozenset()
+    asked: list[ModelVariant] = field(default_factory=list)
+
+    def __call__(self, variant: ModelVariant | None) -> QuantitiesOfInterest:
+        variant = self.of_scene if variant is None else variant
+        self.asked.append(variant)
+        if variant in self.without:
+            raise NotComputedError(variant, "no mesh")
+        rng = np.random.default_rng(abs(hash((tuple(sorted(variant.effects)), variant.friction))))
+        figures = {"peak_pressure": rng.normal(size=3), "contact_length": rng.normal(size=1)}
+        return QuantitiesOfInterest(figures)
+
+
+@pytest.fixture
+def made_solutions() -> type[MadeSolutions]:
+    return MadeSolutions

@@ -1,0 +1,178 @@
+"""Contributions, interaction and whole: they add up whatever the bodies answer."""
+
+import itertools
+from collections.abc import Iterable
+from functools import reduce
+from operator import sub
+
+import numpy as np
+import pytest
+
+from comparisons.judging.comparison import relative_differences
+from comparisons.judging.effects.catalogue import ModelVariant
+from comparisons.judging.effects.catalogue import problem_with as body_problem
+from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.model_error.contributions import (
+    EffectContributions,
+    NotComputedError,
+    contributions_of,
+    split_variants,
+)
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+
+COUPLED = "normal_tangential_coupling"
+SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")
+PLAIN = ModelVariant(frozenset())
+WAVY = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
+
+
+def selection_of(contained: Iterable[str] = (), added: Iterable[str] = ()) -> EffectSelection:
+    return EffectSelection(frozenset(contained), frozenset(added), {}, {}, {})
+
+
+def is_nothing(difference: QuantitiesOfInterest) -> bool:
+    return all(np.allclose(values, 0.0) for values in difference.figures.values())
+
+
+def what_is_left(parts: EffectContributions) -> QuantitiesOfInterest:
+    """Of what the scene's own finite elements lack, without the effects and their interaction."""
+    effects = map(parts.effect, parts.pairs)
+    return reduce(sub, effects, parts.not_contained - parts.interaction(parts.pairs))
+
+
+def split_by(problem, solutions, friction=0.0, contained=(), added=()):
+    split = split_variants(problem, selection_of(contained, added), friction)
+    return split, contributions_of(solutions, split)
+
+
+@pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_effects_and_interaction_add_up_to_the_whole(problem_with, made_solutions, count, friction):
+    problem = problem_with(load={"friction": friction})
+    for names in itertools.combinations(SINGLE, count):
+        _, parts = split_by(problem, made_solutions(PLAIN), friction, added=names)
+        assert is_nothing(what_is_left(parts))  # the scene's own has none of them
+        assert set(parts.pairs) == set(names) - ({COUPLED} if friction == 0.0 else set())
+
+
+@pytest.mark.parametrize("name", ["exact_circle", "finite_strain"])
+def test_one_effect_does_not_interact(problem_with, made_solutions, name):
+    split, parts = split_by(problem_with(), made_solutions(PLAIN), added={name})
+    assert is_nothing(parts.interaction([name]))
+    assert is_nothing(parts.effect(name) - parts.not_contained)
+    assert len(split.all) == 2
+
+
+def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
+    problem = problem_with(finite_element={"roller_shape": "circle"})
+    contained = ModelVariant(frozenset({"exact_circle"}))
+    _, parts = split_by(problem, made_solutions(contained), contained={"exact_circle"})
+    assert set(parts.pairs) == {"exact_circle"}
+    assert not is_nothing(parts.effect("exact_circle"))
+    assert is_nothing(parts.not_contained)
+
+
+def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
+    problem = problem_with(roller={"rigid": True}, load={"friction": [0.1, 0.3]})
+    selection = selection_of(added={"exact_circle", COUPLED})
+    asked = {pressed for mu in (0.1, 0.3) for pressed in split_variants(problem, selection, mu).all}
+    coupled = {variant.friction for variant in asked if COUPLED in variant.effects}
+    assert coupled == {0.1, 0.3}
+    assert {v.friction for v in asked if COUPLED not in v.effects} == {None}
+
+
+class TestFiniteDeformation:
+    """Measured with friction where there is any, and on the trace as boundary."""
+
+    def test_it_is_the_only_effect_that_is_solved(self, problem_with, made_solutions):
+        problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
+        solutions = made_solutions(PLAIN)
+        split, parts = split_by(problem, solutions, 0.2, added={"finite_strain"})
+        assert set(parts.pairs) == {"finite_strain"}
+        assert split.whole == ModelVariant(frozenset({"finite_strain", COUPLED}), 0.2)
+        assert set(solutions.asked) == {split.whole, PLAIN}
+        strained = body_problem(problem, split.whole)
+        assert strained.scene.finite_element.coupled and strained.scene.load.friction == (0.2,)
+        assert strained.rough_boundary
+
+    def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):
+        problem = problem_with(roller={"rigid": True}, load={"friction": 0.2})
+        split, parts = split_by(
+            problem, made_solutions(PLAIN), 0.2, added={"finite_strain", COUPLED}
+        )
+        coupled = ModelVariant(frozenset({COUPLED}), 0.2)
+        assert split.pairs[COUPLED] == (coupled, PLAIN)
+        assert split.pairs["finite_strain"] == (split.whole, coupled)
+        assert is_nothing(parts.interaction(parts.pairs))
+
+    def test_all_bodies_are_solved_as_it_is(self, problem_with):
+        problem = problem_with(finite_element={"element": "P3"})
+        split = split_variants(problem, selection_of(added={"finite_strain"}), 0.0)
+        assert split.of_scene == split.nothing and all(variant.quadratic for variant in split.all)
+        scene = body_problem(problem, split.nothing).scene
+        assert scene.finite_element.element == "P2"
+        linear = split_variants(problem, selection_of(added={"exact_circle"}), 0.0)
+        assert linear.of_scene is None and not any(variant.quadratic for variant in linear.all)
+
+
+class TestWithoutSolution:
+    ADDED = ("exact_circle", "finite_roller", "finite_strain")
+
+    def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with, made_solutions):
+        alone = frozenset({ModelVariant(frozenset({"exact_circle"}))})
+        _, parts = split_by(problem_with(), made_solutions(PLAIN, alone), added=self.ADDED)
+        assert set(parts.pairs) == {"finite_roller", "finite_strain"} and parts.unsplit is None
+        assert is_nothing(what_is_left(parts))
+
+    def test_of_none_the_whole_stays(self, problem_with, made_solutions):
+        circle = ModelVariant(frozenset({"exact_circle"}))
+        _, parts = split_by(
+            problem_with(), made_solutions(circle, frozenset({PLAIN})), added=self.ADDED
+        )
+        assert parts.pairs == {} and parts.unsplit == "no mesh"
+        assert not is_nothing(parts.not_contained)
+
+    def test_of_the_whole_nothing_is_known(self, problem_with, made_solutions):
+        split = split_variants(problem_with(), selection_of(added=self.ADDED), 0.0)
+        with pytest.raises(NotComputedError):
+            contributions_of(made_solutions(PLAIN, frozenset({split.whole})), split)
+
+
+class TestLargestValues:
+    """Of three asperities; the largest stands on the second, and on the third with an effect."""
+
+    BEFORE, AFTER = (
+        QuantitiesOfInterest({"peak_pressure": np.array(peaks), "contact_length": np.array([a])})
+        for peaks, a in (([1.0, 4.0, 3.0], 2.0), ([1.0, 4.2, 4.5], 3.0))
+    )
+
+    def test_a_change_is_that_of_one_asperity(self):
+        change = (self.AFTER - self.BEFORE).figures
+        assert change["peak_pressure"] == pytest.approx([0.0, 0.2, 1.5])
+        assert change["contact_length"] == pytest.approx([1.0])
+
+    def test_the_largest_of_each_may_stand_apart(self, problem_with):
+        assert (self.BEFORE.leading("peak_pressure"), self.AFTER.leading("peak_pressure")) == (1, 2)
+        one, other = self.AFTER.largest(), self.BEFORE.largest()
+        sizes = relative_differences(one, other, problem_with())
+        assert sizes == pytest.approx({"peak_pressure": 0.125, "contact_length": 0.5})
+
+
+def test_what_vanishes_is_measured_by_hertz(problem_with):
+    problem = problem_with()
+    figures = {"tau1_max": 2.0, "tau1_max_depth": 0.0}
+    moved = figures | {"tau1_max_depth": 1e-6}
+    sizes = relative_differences(moved, figures, problem)
+    assert sizes["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)
+
+
+def test_bodies_have_names_of_their_own():
+    circle, roller, strain = ({n} for n in ("exact_circle", "finite_roller", "finite_strain"))
+    bodies = [
+        ModelVariant(frozenset(names), friction, quadratic)
+        for names in (set(), circle, roller, circle | roller, strain)
+        for friction in (None, 0.1, 0.2)
+        for quadratic in (False, True)
+    ]
+    assert len({body.name for body in bodies}) == len(bodies)
+    assert all(set(body.name) <= set("abcdefghijklmnopqrstuvwxyz+-.@0123456789") for body in bodies)

@@ -1,0 +1,132 @@
+"""Largest values asperity by asperity: which one a model error is about, and what else may be it.
+
+The models are made up: three asperities, whose largest shears and depths each solution just has.
+"""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from comparisons.figures.figure import Figure
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging.model_error.contributions import EffectContributions
+from comparisons.judging.model_error.model_error import ModelError, Solutions
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+
+PLACES = np.array([-30e-6, 0.0, 40e-6])
+MODULE = "comparisons.judging.model_error.model_error"
+
+
+def solution(*shears: float, depths=(1e-6, 2e-6, 3e-6)) -> QuantitiesOfInterest:
+    figures = {"tau1_max": np.array(shears), "tau1_max_depth": np.array(depths)}
+    return QuantitiesOfInterest(figures, {"tau1_max": PLACES})
+
+
+def errors(
+    problem, half_plane, plain, whole, effects: dict, settled: float = 1e-4, read=None
+) -> dict[str, ModelError]:
+    """Of the largest shear and its depth; the same on all three levels. `read` gives another
+    model's error of the solutions and a quantity."""
+    level = SimpleNamespace
+    runs = {
+        name: SimpleNamespace(
+            levels=[level(values=of, solution=None)] * 3, finest=level(values=of, solution=None)
+        )
+        for name, of in (("half_plane", half_plane), ("finite_element", plain))
+    }
+    pairs = {name: (with_it, plain) for name, with_it in effects.items()}
+    history = [EffectContributions(whole, plain, plain, pairs)] * 3
+    rows = []
+    for name in ("tau1_max", "tau1_max_depth"):
+        one, other = (of.largest()[name] for of in (half_plane, plain))
+        difference = one / other - 1.0
+        sure = Uncertainty({"numerical": settled})
+        row = Figure("comparison", name, "half_plane", difference, {"friction": 0.0})
+        rows.append(replace(row, against="finite_element", uncertainty=sure))
+    stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
+    with patch.multiple(
+        MODULE,
+        quantities_of=lambda level, problem, friction: level.values,
+        values_of=lambda level, *of: level.values.largest(),
+        uncertainties=lambda *arguments: stated,
+        iteration=lambda *solutions: 0.0,
+        relative_resolution=lambda *levels: 0.0,
+        formal_order=lambda *of: 2.0,
+    ):
+        solutions = Solutions(problem, runs, history, rows[0].friction)
+        if read is not None:
+            return {row.quantity: read(solutions, row.quantity) for row in rows}
+        return {row.quantity: solutions.error(row) for row in rows}
+
+
+def test_other_models_are_judged_by_their_own_largest_values(problem_with):
+    """Finite elements without the effect that moves the maximum, with it, and a closed form; what
+    is not known of the whole is what is not known of the scene's own finite elements."""
+    plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
+
+    def errors_by(read) -> list[tuple[float, float]]:
+        known = errors(problem_with(), plain, plain, strained, {}, 1e-3, read)
+        return [(known[n].value, known[n].uncertainty) for n in ("tau1_max", "tau1_max_depth")]
+
+    without = errors_by(lambda solutions, name: solutions.of_variants(name, [plain] * 3))
+    assert [value for value, _ in without] == pytest.approx([3.0 / 3.19 - 1.0, 2.0 / 3.0 - 1.0])
+    assert errors_by(lambda of, name: of.of_variants(name, [strained] * 3)) == [(0.0, 0.0)] * 2
+    exact = errors_by(lambda of, name: of.of_exact(name, plain, 1e-3))
+    assert [value for value, _ in exact] == pytest.approx([value for value, _ in without])
+    assert exact[0][1] == pytest.approx(1e-3 * 3.0 / 3.19)
+    assert errors_by(lambda of, name: of.of_whole(name, 1e-3)) == [(0.0, 1e-3)] * 2
+
+
+def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):
+    """It raises the third asperity by 10 % and lowers the second by 10 %: no difference of the
+    largest values, which stand at two places, is either."""
+    plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
+    result = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})
+    shear = result["tau1_max"]
+    effect = shear.effects["finite_strain"]
+    assert effect.value == pytest.approx(0.29 / 3.19) and effect.moves_maximum
+    assert shear.value == pytest.approx(3.0 / 3.19 - 1.0)
+    assert shear.jump == pytest.approx(0.1 / 3.19)
+    assert shear.moved == (0.0, 40e-6)
+    assert shear.value == pytest.approx(-effect.value - shear.interaction + shear.jump)
+    depth = result["tau1_max_depth"]
+    assert depth.value == pytest.approx(-1.0 / 3.0) and depth.jump == pytest.approx(-1.0 / 3.0)
+
+
+def test_where_the_maximum_stays_there_is_no_jump(problem_with):
+    plain, strained = solution(1.0, 3.0, 2.5), solution(1.0, 3.3, 2.6)
+    shear = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})["tau1_max"]
+    assert (shear.jump, shear.moved) == (0.0, None)
+    assert not shear.effects["finite_strain"].moves_maximum
+    assert shear.uncertainty == pytest.approx(1e-4, rel=0.5)
+
+
+def test_effects_that_outweigh_each_other_interact(problem_with):
+    plain, one, other = solution(1.0, 3.0, 2.0), solution(1.0, 3.1, 2.0), solution(1.0, 3.05, 2.0)
+    effects = {"finite_strain": one, "exact_circle": other}
+    whole = solution(1.0, 2.7, 2.0)
+    shear = errors(problem_with(), plain, plain, whole, effects)["tau1_max"]
+    assert shear.interaction == pytest.approx(-0.45 / 2.7)
+    parts = sum(effect.value for effect in shear.effects.values()) + shear.interaction
+    assert shear.value == pytest.approx(-parts)
+
+
+def test_twin_peaks_are_not_said_to_move(problem_with):
+    """Symmetric bodies have two equal largest values: rounding chooses one."""
+    plain, strained = solution(3.0, 1.0, 3.0 - 1e-9), solution(3.3 - 1e-9, 1.0, 3.3)
+    shear = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})["tau1_max"]
+    assert shear.moved is None and not shear.effects["finite_strain"].moves_maximum
+    assert shear.effects["finite_strain"].value == pytest.approx(0.3 / 3.3)
+
+
+def test_an_asperity_that_may_have_it_counts_in_the_uncertainty(problem_with):
+    near, far = solution(1.0, 3.0, 2.99), solution(1.0, 3.0, 2.5)
+    of = [errors(problem_with(), shear, shear, shear, {}, settled=0.01) for shear in (near, far)]
+    wide, narrow = (result["tau1_max"].uncertainty for result in of)
+    assert narrow == pytest.approx(0.01) and wide == pytest.approx(narrow, abs=2e-4)
+    # the depth may be the other one's
+    wide, narrow = (result["tau1_max_depth"].uncertainty for result in of)
+    assert narrow == pytest.approx(0.01) and wide == pytest.approx(0.01 + 1.0 / 2.0)

@@ -1,0 +1,92 @@
+"""Model variants solved by several processes: the same solutions, and what becomes of failures."""
+
+import pickle
+from functools import partial
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import Tasks, tasks_here
+from comparisons.figures.quantity import MODELS
+from comparisons.judging.effects.catalogue import ModelVariant
+from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.model_error import solutions as solve
+from comparisons.judging.model_error.contributions import (
+    NotComputedError,
+    contributions_of,
+    split_variants,
+)
+from comparisons.judging.model_error.solutions import SolvedVariants
+from comparisons.judging.study import Solved
+from comparisons.models.plan import make_plan
+from comparisons.runs.refinement import refined
+
+RIGID = {"rigid": True}
+SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
+
+
+@pytest.fixture(scope="module")
+def made(problem_with):
+    """A small scene's variants, yet to be solved, by given tasks."""
+    problem = problem_with(roller=RIGID)
+    plan = make_plan(problem, MODELS)
+    runs = refined(Solved(problem, plan, None, {}), Tasks()).runs
+    finite, patches = runs["finite_element"], runs["half_plane"].finest.patches
+
+    def variants(tasks) -> SolvedVariants:
+        return SolvedVariants(problem, None, finite, tasks, patches)
+
+    return variants
+
+
+def test_variants_of_other_processes_are_as_here(made, monkeypatch):
+    for name in ("WORTH_A_START", "WORTH_A_FORK"):
+        monkeypatch.setattr(f"comparisons.common.tasks.{name}", 0.0)
+    alone, stages = made(Tasks()), []
+    with tasks_here(stages.append) as tasks:
+        tasks.opens, tasks.at_once = ProcessWorker, 2
+        shared = made(tasks)
+        split = split_variants(shared.problem, SELECTION, 0.0)
+        shared.keep([split.whole])
+        assert len(shared.announce(split.all, 1)) == 3
+        shared.prepare(split.all, 1)
+        assert len(tasks._workers) == 2
+    told = {stage.partition(", with ")[2] for stage in stages}  # of which variant and level
+    assert len(told) == 3 and len(split.all) == 4
+    solved = {variant for variant, _, _ in shared.solved}
+    assert solved == {*split.all} - {split.nothing}  # which is the scene's own
+    assert shared.finest(split.whole) is shared.wholes[split.whole] is not None
+    one, two = (
+        contributions_of(partial(bodies.solution, number=1, friction=0.0), split)
+        for bodies in (alone, shared)
+    )
+    for name, values in one.not_contained.figures.items():
+        np.testing.assert_array_equal(values, two.not_contained.figures[name])
+    assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
+
+
+def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
+    disc, circle = (ModelVariant(frozenset({name})) for name in ("finite_roller", "exact_circle"))
+    bodies = made(Tasks())
+    with patch.object(solve, "_solved", side_effect=NotComputedError(disc, "no\nmesh")):
+        bodies.prepare([disc], 1)
+    bodies.prepare([disc, circle], 1)  # is not tried again
+    assert bodies.solution(circle, 1, 0.0)
+    with pytest.raises(NotComputedError) as caught:
+        bodies.solution(disc, 1, 0.0)
+    for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):  # of another process
+        assert (error.variant, str(error)) == (disc, "no mesh")
+
+
+def test_a_problem_can_be_handed_on(problem_with):
+    """With its gap, which is what the other process presses on."""
+    wavy = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
+    problem = problem_with(profile=wavy)
+    copied = pickle.loads(pickle.dumps(problem))
+    x = np.linspace(*problem.extent, 50)
+    np.testing.assert_array_equal(copied.gap(x), problem.gap(x))
+    np.testing.assert_array_equal(copied.finite_element_gap(x), problem.finite_element_gap(x))
+    assert Path(copied.scene.source) == Path(problem.scene.source)

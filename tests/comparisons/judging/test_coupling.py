@@ -1,0 +1,275 @@
+"""What friction changes by moving the surfaces of unlike bodies, against the sliding cylinder."""
+
+import json
+from dataclasses import replace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+import scenes
+from scenes import DATA, STEEL, changed, half_plane_at, refound, run_of
+
+from comparisons.common.numbers import UNKNOWN
+from comparisons.common.progress import no_progress
+from comparisons.figures.quantity import QUANTITIES
+from comparisons.judging import coupling
+from comparisons.judging.coupling import BEYOND_THE_END, SHIFT, Change, couplings
+from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.study import WHY_NOT, Run
+from comparisons.models.level import ModelRun
+
+DATA_F = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
+REFERENCES = [
+    {n: float(v) for n, v in reference.items() if n != "beta" and isinstance(v, str)}
+    for reference in DATA_F["sliding_cylinder"]
+]
+RIGID = {
+    "title": "Rigid roller",
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": STEEL,
+    "load": {"per_length": 1e6, "friction": [0.0, 0.1, 0.3]},
+    "stress": {"points": [60, 20]},
+}
+STRONG = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}  # beta = 1/2
+ALIKE = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
+WAVY = RIGID | {
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "body": {**STEEL, "hardness": 4e9},
+    "load": {"hertz_peak_pressure": 1e9, "friction": 0.3},
+}
+
+
+def problem_of(tables: dict, **load):
+    return scenes.problem(changed(tables, load=load))
+
+
+def solved(tables: dict, **load) -> Run:
+    return run_of(tables, "half_plane", load=load)
+
+
+def half_plane_of(problem) -> ModelRun:
+    levels = (half_plane_at(problem, pitch) for pitch in problem.pitches)
+    return ModelRun("half_plane", tuple(levels))
+
+
+def estimate(problem, couplings_of) -> dict | None:
+    """How much friction may change by moving the surfaces, by quantity."""
+    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=couplings_of)
+    return every.get("normal_tangential_coupling")
+
+
+def plain(outcome: Run, friction: float) -> dict[str, float]:
+    """The half-plane's figures at a friction coefficient, as it was solved."""
+    known = outcome.figures.of(study="contact", source="half_plane", friction=friction)
+    return {figure.quantity: figure.value for figure in known}
+
+
+def change(outcome: Run, friction: float) -> dict[str, tuple[float | None, float | None]]:
+    """By quantity, the figure with coupling and its change."""
+    known = outcome.figures.of(study=coupling.NAME, friction=friction)
+    pairs = {figure.quantity: (None, None) for figure in known}
+    for figure in known:
+        value, difference = pairs[figure.quantity]
+        pair = (value, figure.value) if figure.against else (figure.value, difference)
+        pairs[figure.quantity] = pair
+    return pairs
+
+
+@pytest.fixture
+def rigid() -> Run:
+    """Three friction coefficients, with a field."""
+    return solved(RIGID)
+
+
+@pytest.fixture
+def rigid_coupled() -> Run:
+    return solved(RIGID, friction=0.3, coupled=True)
+
+
+@pytest.fixture(scope="module")
+def wavy():
+    """A rough problem, and the half-plane's levels."""
+    problem = problem_of(WAVY)
+    return problem, half_plane_of(problem)
+
+
+class TestFigures:
+    @pytest.mark.parametrize("number", [1, 2])
+    def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, number):
+        """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
+        reference, hertz = REFERENCES[number - 1], rigid.problem.hertz
+        moved = change(rigid, reference["mu"])
+        assert DATA_F["sliding_cylinder"][number - 1]["beta"] == "2/7"
+        wider = reference["ahalf_over_aHertz_same_load"]
+        peak = reference["peak_over_p0Hertz_same_load"]
+        shift = reference["load_line_x_over_ahalf"] * wider
+        pressure, length = moved["peak_pressure"], moved["contact_length"]
+        assert pressure[1] == pytest.approx(peak - 1.0, abs=2e-5)
+        assert pressure[0] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
+        assert length[0] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
+        assert moved[SHIFT][1] == pytest.approx(shift, rel=1e-3)
+        assert moved[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
+        said = rigid.findings[coupling.NAME].said("converged", friction=reference["mu"])
+        assert said == "yes"
+
+    def test_the_model_s_own_figures_stay_without_it(self, rigid):
+        names = ("peak_pressure", "contact_length", "peak_position")
+        first, *others = (plain(rigid, mu) for mu in rigid.problem.scene.load.friction)
+        assert all(other[name] == first[name] for other in others for name in names)
+        hertz = rigid.problem.hertz.peak_pressure
+        assert first["peak_pressure"] == pytest.approx(hertz, rel=1e-4)
+
+    def test_no_friction_no_change(self, rigid):
+        assert change(rigid, 0.0) == {}
+        assert rigid.findings[coupling.NAME].said(WHY_NOT, friction=0.0) == "there is no friction"
+        assert "coupling" not in {item.step for item in rigid.plan.skipped}
+
+    def test_stresses_are_compared_too(self, rigid):
+        moved = change(rigid, 0.3)
+        # on the surface tau1 = mu p where sx + p is what the coupling changes most
+        assert -0.05 < moved["tau1_max"][1] < -0.005
+
+    def test_a_figure_that_is_zero_without_has_a_value_and_no_relative_change(self, rigid):
+        """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
+        problem, level = rigid.problem, rigid.runs["half_plane"].finest
+        still = {"tau1_max_depth": 0.0, "contact_length": 0.0, "peak_pressure": 2.0}
+        moved = {"tau1_max_depth": 3e-5, "contact_length": 0.0, "peak_pressure": 3.0}
+        answers = iter([moved, still])
+        with patch.object(coupling, "values_of", lambda *_: next(answers)):
+            changes = coupling._changes(problem, level, level, 0.3)
+        assert changes["tau1_max_depth"] == Change(3e-5, None)
+        assert changes["contact_length"] == Change(0.0, 0.0)
+        assert changes["peak_pressure"].difference == pytest.approx(0.5)
+        added = replace(rigid.data("coupling")[2], changes=changes)
+        figures = coupling.figures_of_changes(added, problem, rigid.findings["contact"].figures)
+        figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
+        assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
+        table = coupling.coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
+        [row] = [row for row in table.rows if "depth" in row[0]]
+        assert row[1:] == ("30.00 µm", UNKNOWN)
+        effect = estimate(problem, (added,))
+        assert effect["peak_pressure"] == pytest.approx(0.5)
+        scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
+        assert effect["tau1_max_depth"] == pytest.approx(3e-5 / scale)
+
+    @pytest.mark.parametrize(("friction", "why"), [(0.0, "no friction"), (0.3, "equal constants")])
+    def test_equal_materials_skip_it(self, friction, why):
+        outcome = solved(ALIKE, friction=friction)
+        [because] = [item.because for item in outcome.plan.skipped if item.step == "coupling"]
+        assert why in because
+        assert coupling.NAME not in outcome.findings and coupling.coupling_table(outcome) is None
+
+    def test_softer_roller_moves_the_contact_the_other_way(self):
+        one = solved(RIGID, friction=0.3)
+        soft = {"radius": 8e-3, "youngs_modulus": 3e9, "poissons_ratio": 0.3}
+        swapped = RIGID | {"roller": soft, "load": {"hertz_peak_pressure": 5e7}}
+        other = solved(swapped, friction=0.3)
+        first, second = (change(outcome, 0.3)[SHIFT][0] for outcome in (one, other))
+        assert first < 0.0 < second and other.problem.dundurs_beta < 0.0
+
+
+class TestSwitch:
+    def test_coupled_answer_is_the_exact_one(self, rigid_coupled):
+        reference = REFERENCES[1]
+        a = rigid_coupled.problem.hertz.half_width * reference["ahalf_over_aHertz_same_load"]
+        [edges] = rigid_coupled.runs["half_plane"].finest.patches
+        exact = -reference["b_trailing_over_ahalf"], reference["c_leading_over_ahalf"]
+        assert edges / a == pytest.approx(exact, rel=1e-3)
+
+    def test_both_ways_round_tell_the_same_change(self, rigid, rigid_coupled):
+        one, other = (change(outcome, 0.3) for outcome in (rigid, rigid_coupled))
+        for name in ("peak_pressure", SHIFT, "pressure_l2", "tau1_max"):
+            assert one[name][1] == pytest.approx(other[name][1], rel=0.03)
+
+    def test_strong_coupling_finds_its_extent(self):
+        """mu beta = 0.75 reaches beyond 1.5 Hertz half-widths, where the other answer ends."""
+        shift = np.arctan(0.75) / np.pi
+        half = 1.0 / np.sqrt(1.0 - 4.0 * shift**2)
+        outcome, other = (solved(STRONG, friction=1.5, coupled=way) for way in (True, False))
+        a = outcome.problem.hertz.half_width
+        [edges] = outcome.runs["half_plane"].finest.patches / a
+        expected = np.array([-1.0 - 2.0 * shift, 1.0 - 2.0 * shift]) * half
+        assert edges == pytest.approx(expected, abs=5e-3)
+        assert other.problem.extent[0] / a == pytest.approx(-1.5) and edges[0] < -1.5
+        length, _ = change(other, 1.5)["contact_length"]
+        assert length / a == pytest.approx(2.0 * half, rel=2e-3)
+
+    def test_equal_materials_are_the_same_either_way(self):
+        one, other = (plain(solved(ALIKE, friction=0.3, coupled=way), 0.3) for way in (False, True))
+        assert one == other
+
+
+class TestRoughBody:
+    @staticmethod
+    def cut(problem, start: float, stop: float):
+        """The problem on a trace that ends there [m]."""
+        trace = problem.surface.profile
+        kept = (trace.x >= start) & (trace.x <= stop)
+        short = replace(trace, x=trace.x[kept], height=trace.height[kept])
+        return replace(problem, surface=replace(problem.surface, profile=short))
+
+    def test_change_under_a_hardness(self, wavy):
+        [result] = couplings(*wavy[::-1], None, no_progress)
+        assert result.converged
+        assert result.changes["peak_pressure"].value <= 4e9
+        assert result.changes[SHIFT].value < 0.0
+
+    def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
+        """The grid is extended where there is a trace, here behind the contact only."""
+        problem, levels = wavy
+        [one] = couplings(levels, problem, None, no_progress)
+        ended = self.cut(problem, -np.inf, levels.finest.grid.x[-1] + 2e-6)
+        [other] = couplings(levels, ended, None, no_progress)
+        for name, change in one.changes.items():
+            assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+
+    def test_a_contact_that_goes_far_is_followed(self, monkeypatch):
+        """The first stretches are too short for it."""
+        problem = problem_of(STRONG, friction=1.5)
+        levels = half_plane_of(problem)
+        [expected] = couplings(levels, problem, None, no_progress)
+        stretched = coupling._stretched
+        monkeypatch.setattr(
+            coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
+        )
+        [result] = couplings(levels, problem, None, no_progress)
+        for name, change in expected.changes.items():
+            assert result.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+
+    def test_there_is_no_change_where_the_trace_ends(self, wavy):
+        """Just beyond the contact at rest."""
+        problem, levels = wavy
+        level = levels.finest
+        edge = level.patches[0, 0] - 0.5e-6
+        ended = self.cut(problem, edge, -edge)
+        trace, pitch = ended.surface.profile, level.grid.pitch
+        first, last = int(np.ceil(trace.x[0] / pitch)), int(np.floor(trace.x[-1] / pitch))
+        grid = replace(level.grid, first=first + 1, last=last - 1)
+        inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
+        solution = replace(level.solution, pressure=level.solution.pressure[inside])
+        ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
+        [result] = couplings(ending, ended, None, no_progress)
+        assert result.changes == {} and result.why == BEYOND_THE_END
+
+
+class TestEstimate:
+    def test_measured_changes_take_the_place_of_the_estimate(self, rigid):
+        effect = estimate(rigid.problem, rigid.data("coupling"))
+        last = rigid.data("coupling")[2].changes
+        for name in ("peak_pressure", "contact_length", "tau1_max_depth"):
+            assert effect[name] == abs(last[name].difference)
+
+    def test_what_was_not_measured_is_estimated(self, rigid):
+        effect = estimate(rigid.problem, ())
+        size = 0.3 * rigid.problem.dundurs_beta
+        assert effect["tau1_max"] == pytest.approx(0.8 * size)
+        known = rigid.data("coupling")
+        without = tuple(replace(coupled, changes={}, why=BEYOND_THE_END) for coupled in known)
+        assert estimate(rigid.problem, without) == effect
+
+    def test_what_both_models_contain_is_not_missing(self, rigid_coupled):
+        assert estimate(rigid_coupled.problem, rigid_coupled.data("coupling")) is None
+
+    def test_equal_materials_have_no_such_effect(self, wavy_outcome):
+        assert wavy_outcome.problem.dundurs_beta == 0.0
+        assert estimate(wavy_outcome.problem, ()) is None
