@@ -19,7 +19,7 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.figures.figure import Figure, Figures, grouped
+from comparisons.figures.figure import Column, Figure, Figures, Series, grouped
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 
 MOST_DIGITS = 5  # of a figure beside its uncertainty
@@ -187,3 +187,22 @@ def stated(figure: Figure | None, unit: float = 1.0) -> str:
     last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
     size = max(size, 10.0**last)
     return f"{value:.{max(0, -last)}f} ± {size:.{max(0, -last)}f}".replace("-", MINUS)
+
+
+def stated_text(column: Column) -> list[str]:
+    """A column's cells: texts, or numbers in three digits with what they are uncertain by."""
+    cells = []
+    for value, size in zip(column.values, column.sizes, strict=True):
+        text = value if isinstance(value, str) else with_unit(value, column.unit, 3)
+        cells.append(f"{text} ± {percent(size / value, digits=1)}" if size > 0.0 else text)
+    return cells
+
+
+def series_table(title: str, series: Series) -> TextTable:
+    """A row for each of a series' columns, by its name in words; the first is the head."""
+    head, *rows = ((_in_words(name), *stated_text(c)) for name, c in series.columns.items())
+    return TextTable(title, head, tuple(rows))
+
+
+def _in_words(name: str) -> str:
+    return name.removeprefix("figures.").replace("_", " ").replace(".", ", ")

@@ -4,9 +4,9 @@ In: a run with [statistics]. Out: tables and pictures for the page, lines for th
 
 import numpy as np
 
-from comparisons.common.numbers import percent, scale_of, significant, with_unit
+from comparisons.common.numbers import scale_of, significant
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.drawing.blocks import Block, Note, Pictures, TextTable, series_table, stated_text
 from comparisons.drawing.curves import legend_above, names_above, over, panels
 from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
@@ -24,13 +24,6 @@ LOOKS = {
     "trace": {"color": "#222222", "marker": "x", "linestyle": "none", "label": "the scene's"},
 }
 POINTS, ALONG = 4000, 20  # of the profile, of each patch
-SUMMITS = ("", "bandwidth", "rms slope", "peaks per mm", "radius", "deviation")
-SUMMITS += ("summits per mm²", "radius of summits", "deviation of summits")
-PRESSURES = ("load", "patches", "theory, by moments", "by peaks", "Persson, ridges")
-PRESSURES += ("as many ridges, Hertz", "random traces", "the trace")
-WIDTHS = ("half-width over a: theory", "random traces", "the trace")
-THEORIES = [f"figures.{source}.{PRESSURE}" for source in ("moments", "peaks")]
-THEORIES += ["persson.ridges", "even"]
 STRAIN = "plastic_strain"
 ON_THEORY = """Theory: a rough cylinder whose summits, spheres of Gaussian heights, bear each as if
 alone on a half-space that gives way under their mean pressure (Greenwood and Williamson 1966,
@@ -40,7 +33,7 @@ random ones of its spectrum, ± the 95 % interval of their mean. Theory over sol
 three factors: summits alone, the theory over Persson's of the same isotropic surface; ridges, a
 profile pressed in plane strain has ridges across it and no summits (√2 by Persson); few contacts,
 the rest, where a light load rests on one ridge or two, whose pressure goes with the root of the
-load."""
+load. Even: as many ridges as patches, each under the same share of the load, by Hertz."""
 ON_PENETRATION = """Relative penetration h/R = a²/R² by the peak pressure q₀ of a patch: book,
 1.78 (q₀/E)² (Seireg 1998); exact, Hertz's 2.043 (q₀/E)² of a sphere for first flow, which is by
 stress, and 3.312 (q₀/E)² of a ridge for cutting, which is by the slope a/R at its edges. Elastic
@@ -49,16 +42,16 @@ counts the patches above a plastic strain."""
 
 
 def blocks(run: Run) -> list[Block]:
-    section = run.problem.scene.statistics
+    section, findings = run.problem.scene.statistics, run.findings[NAME]
+    limits = {"elastic": "0.01" if section.metal == "ferrous" else "0.0001"}
+    limits["cutting"] = "0.3" if section.lubricated else "0.1"
     items = (
-        *(Pictures(("statistics",)), _summit_table, _load_tables, _patch_table),
+        Pictures(("statistics",)),
+        series_table("Summits, by moments and by peaks", findings.table("summits")),
+        series_table("Theory and solved", findings.table("loads")),
+        _patch_table(findings),
         Note(ON_THEORY),
-        Note(
-            ON_PENETRATION.format(
-                elastic="0.01" if section.metal == "ferrous" else "0.0001",
-                cutting="0.3" if section.lubricated else "0.1",
-            )
-        ),
+        Note(ON_PENETRATION.format(**limits)),
     )
     return [Block("statistics", items, "Statistics of rough contact")]
 
@@ -66,16 +59,13 @@ def blocks(run: Run) -> list[Block]:
 def lines(run: Run) -> list[tuple[str, str]]:
     """Of the scene's own load, and of its asperities."""
     findings, (*_, patches) = run.findings[NAME], _patches(run.findings[NAME])
-    loads = findings.table("loads")
-    row = loads.rows()[0]
-    theory = with_unit(row[f"figures.moments.{PRESSURE}"], "Pa", 3)
-    solved = f"solved {_random(loads)[0]} under random traces"
-    causes = ", ".join(map(" ".join, _causes(row).items()))
-    exact = patches.columns["kinds.exact"].values
-    kinds = ", ".join(f"{exact.count(kind)} {kind}" for kind in KINDS)
+    first = {n: stated_text(c)[0] for n, c in findings.table("loads").columns.items()}
+    theory, random = (first[f"figures.{source}.{PRESSURE}"] for source in ("moments", "random"))
+    causes = (f"{n.removeprefix('causes.')} ×{first[n]}" for n in first if "causes." in n)
+    solved = f"solved {random} under random traces"
     return [
-        ("statistics", f"mean real pressure {theory} by theory, {solved}: {causes}"),
-        ("asperities", f"by h/R {kinds} ({LABELS[patches.source]})"),
+        ("statistics", f"mean real pressure {theory} by theory, {solved}: {', '.join(causes)}"),
+        ("asperities", f"by h/R {', '.join(_counted(patches))} ({LABELS[patches.source]})"),
     ]
 
 
@@ -84,80 +74,29 @@ def _patches(findings: Findings) -> list[Series]:
     return [series for series in findings.series if series.name == "patches"]
 
 
-def _causes(row: dict) -> dict[str, str]:
-    """The factors of theory over solved."""
-    factors = {name.removeprefix("causes."): row[name] for name in row if "causes." in name}
-    return {name: f"×{significant(value, 3)}" for name, value in factors.items()}
+def _counted(patches: Series) -> list[str]:
+    """Numbers of patches of each kind."""
+    kinds = patches.columns["kinds.exact"].values
+    return [f"{kinds.count(kind)} {kind}" for kind in KINDS]
 
 
-def _random(loads: Series) -> list[str]:
-    """The mean real pressure of the random traces under each load."""
-    column = loads.columns[f"figures.random.{PRESSURE}"]
-    shares = column.sizes / column.numbers
-    return [
-        f"{with_unit(value, 'Pa', 3)} ± {percent(share, digits=1)}"
-        for value, share in zip(column.values, shares, strict=True)
-    ]
-
-
-def _summit_table(run: Run) -> TextTable:
-    summits = tuple(map(_summits, run.findings[NAME].table("summits").rows()))
-    return TextTable("Summits, by moments / by peaks", SUMMITS, summits)
-
-
-def _summits(row: dict) -> tuple[str, ...]:
-    name = row["treatment"]
-    name += "" if name == "as pressed" else f" {with_unit(row['size'], 'm', 3)}"
-    cells = [name, significant(row["bandwidth"], 3), significant(row["rms_slope"], 3)]
-    for kind, area in (("peaks", 1e-3), ("summits", 1e-6)):
-        both = (f"{kind}.moments.", f"{kind}.peaks.")
-        known = [where for where in both if row.get(f"{where}density") is not None]
-        cells.append(" / ".join(significant(area * row[f"{w}density"], 3) for w in known))
-        for field in ("radius", "deviation"):
-            cells.append(" / ".join(with_unit(row[where + field], "m", 3) for where in known))
-    return tuple(cells)
-
-
-def _load_tables(run: Run) -> list[TextTable]:
-    """Pressures; and how far the theory is off, why, and the widths."""
-    loads = run.findings[NAME].table("loads")
-    pressures, factors, differences = [], [], loads.columns["difference"].sizes
-    for row, random, uncertainty in zip(loads.rows(), _random(loads), differences, strict=True):
-        widths = (row[f"figures.{n}.{FIGURES[2]}"] for n in ("moments", "random", "trace"))
-        load, excess = with_unit(row["load"], "N/m", 3), percent(row["difference"], signed=True)
-        trace = with_unit(row[f"figures.trace.{PRESSURE}"], "Pa", 3)
-        before = (with_unit(row[name], "Pa", 3) for name in THEORIES)
-        pressures.append((load, significant(row["patches"], 2), *before, random, trace))
-        excess += f" ± {percent(uncertainty, digits=1)}"
-        widths = (significant(width / row["half_width"], 3) for width in widths)
-        factors.append((load, excess, *_causes(row).values(), *widths))
-    head = ("load", "theory over random", *_causes(loads.rows()[0]), *WIDTHS)
-    title = "Mean real pressure, load over real length"
-    return [
-        TextTable(title, PRESSURES, tuple(pressures)),
-        TextTable("Theory over solved, and half-widths", head, tuple(factors)),
-    ]
-
-
-def _patch_table(run: Run) -> TextTable:
-    findings = run.findings[NAME]
-    models = [LABELS[patches.source] for patches in _patches(findings)]
-    title = "Patches of contact by relative penetration"
-    if any(STRAIN in patches.columns for patches in _patches(findings)):
-        title += "; after a semicolon, how many of them flow"
-    head = ("", *(f"{model}, {how}" for model in models for how in ("book", "exact")))
-    return TextTable(title, head, tuple(_kinds(findings, kind) for kind in KINDS))
-
-
-def _kinds(findings: Findings, kind: str) -> tuple[str, ...]:
-    """How many patches by the book's coefficient and the exact one, and how many of them flow."""
-    cells = [kind]
+def _patch_table(findings: Findings) -> TextTable:
+    """How many patches are of a kind, by the book's coefficient and the exact one, and how many of
+    them flow."""
+    title, head = "Patches of contact by relative penetration", [""]
+    cells = {kind: [kind] for kind in KINDS}
     for patches in _patches(findings):
+        strain = patches.columns.get(STRAIN)
+        if strain is not None:
+            title += "; after a semicolon, how many of them flow"
         for how in ("book", "exact"):
-            rows = [row for row in patches.rows() if row[f"kinds.{how}"] == kind]
-            flowing = sum(row[STRAIN] > FLOWS for row in rows if STRAIN in row)
-            cells.append(f"{len(rows)}; {flowing}" if STRAIN in patches.columns else f"{len(rows)}")
-    return tuple(cells)
+            head.append(f"{LABELS[patches.source]}, {how}")
+            kinds = np.array(patches.columns[f"kinds.{how}"].values)
+            for kind, row in cells.items():
+                row.append(f"{np.sum(kinds == kind)}")
+                if strain is not None:
+                    row[-1] += f"; {np.sum(strain.numbers[kinds == kind] > FLOWS)}"
+    return TextTable(title, tuple(head), tuple(map(tuple, cells.values())))
 
 
 def statistics_pictures(run: Run) -> list[style.Picture]:
@@ -188,26 +127,22 @@ def _over_load(run: Run) -> style.Picture:
     over(axes, "load [N/m]")
     ends = (columns[f"figures.{name}.{PRESSURE}"].values for name in ("moments", "random"))
     theory, solved = (significant(first / last, 3) for first, *_, last in ends)
-    grown = f"{theory} times by the theory and {solved} times as solved"
-    alternative = f"Over three decades of load the mean real pressure grows {grown}."
     [traces] = findings.table("traces").columns["traces"].values
     caption = (
         "Mean real pressure, and effective half-width over Hertz's, against load. Over three "
-        f"decades the pressure grows {grown}. Bars: 95 % interval of the mean over "
-        f"{traces} random traces of the same spectrum."
+        f"decades the pressure grows {theory} times by the theory and {solved} times as solved. "
+        f"Bars: 95 % interval of the mean over {traces} random traces of the same spectrum."
     )
-    return style.picture(drawn, alternative, caption)
+    return style.picture(drawn, caption, caption)
 
 
 def _asperities(run: Run) -> style.Picture:
     """The profile, its patches of contact in the colour of their kind."""
     (*_, patches), wanted = _patches(run.findings[NAME]), run.problem.scene.statistics
-    kinds = patches.columns["kinds.exact"].values
-    counts = [f"{kinds.count(kind)} {kind}" for kind in KINDS]
+    counts = _counted(patches)
     rule = f"{wanted.metal}, {'lubricated' if wanted.lubricated else 'dry'}"
-    said = f"by relative penetration, {rule}: {', '.join(counts)}"
-    caption = f"Patches of contact ({LABELS[patches.source]}) {said}."
-    alternative = f"The profile and its patches of contact, {said}."
+    caption = f"The profile and its patches of contact ({LABELS[patches.source]}) by relative "
+    caption += f"penetration, {rule}: {', '.join(counts)}."
     x, spline = np.linspace(*run.problem.extent, POINTS), run.problem.surface.profile.spline()
     along, up = scale_of(x, "m"), scale_of([np.ptp(spline(x))], "m")
     abreast, room = names_above(style.WIDE, len(KINDS))
@@ -222,4 +157,4 @@ def _asperities(run: Run) -> style.Picture:
     axes.set_ylabel(f"height [{up.name}]")
     over([axes], f"x [{along.name}]", x / along.factor)
     legend_above(axes, abreast)
-    return style.picture(drawn, alternative, caption, data=False)
+    return style.picture(drawn, caption, caption, data=False)
