@@ -11,7 +11,6 @@ their HDF5 and that of the finite elements may be two versions."""
 import logging.handlers
 import resource
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +27,9 @@ if TYPE_CHECKING:
 
 INSTALL = "python -m pip install pyvista-frd-reader h5py"
 END_OF_FRD = b"9999"
+XDMF = ".xdmf", ".xmf"
+BY_MESHIO = (*XDMF, ".med", ".msh")
+ARRAY = "array "  # before the names of arrays, in the file between both processes
 MOST_MEMORY = 8 * 10**9  # bytes of address space of the reader
 
 
@@ -52,7 +54,8 @@ def read_mesh(path: Path, step: int | None) -> Faces:
             whole = "" if "allowed" in str(error) else "; allowed is a whole result file"
             raise ValueError(f"{error}{whole}") from None
         with np.load(out) as file:
-            arrays = {str(name): file[f"array{i}"] for i, name in enumerate(file["names"])}
+            named = [name for name in file.files if name.startswith(ARRAY)]
+            arrays = {name.removeprefix(ARRAY): file[name] for name in named}
             return Faces(file["points"], file["triangles"], arrays)
 
 
@@ -62,52 +65,40 @@ def _chosen(count: int, step: int | None) -> int:
     return count - 1 if step is None else step
 
 
-def _at_step(reader: object, step: int | None) -> "UnstructuredGrid":
-    count = getattr(reader, "number_time_points", 0)
-    if count:
+def _grid(path: Path, step: int | None) -> "UnstructuredGrid":
+    """What is in a file, at a step in time."""
+    import pyvista
+
+    kind = path.suffix.lower()
+    if kind in BY_MESHIO:
+        return _by_meshio(path, step)
+    if kind == ".frd":
+        from pyvista_frd import FRDReader
+
+        with path.open("rb") as file:
+            file.seek(max(0, path.stat().st_size - 64))
+            if not file.read().rstrip().endswith(END_OF_FRD):
+                raise ValueError("ends before its last line, 9999; allowed is the whole file")
+        reader = FRDReader(path)
+    else:
+        reader = pyvista.get_reader(path)
+    if count := getattr(reader, "number_time_points", 0):
         reader.set_active_time_point(_chosen(count, step))
     mesh = reader.read()
     mesh = mesh.combine() if hasattr(mesh, "combine") else mesh
     return mesh.cast_to_unstructured_grid()
 
 
-def _frd(path: Path, step: int | None) -> "UnstructuredGrid":
-    from pyvista_frd import FRDReader
-
-    with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - 64))
-        if not file.read().rstrip().endswith(END_OF_FRD):
-            raise ValueError("ends before its last line, 9999; allowed is the whole file")
-    return _at_step(FRDReader(path), step)
-
-
-def _by_vtk(path: Path, step: int | None) -> "UnstructuredGrid":
-    import pyvista
-
-    return _at_step(pyvista.get_reader(path), step)
-
-
 def _by_meshio(path: Path, step: int | None) -> "UnstructuredGrid":
     import meshio
     import pyvista
 
-    mesh = None
-    if path.suffix.lower() in (".xdmf", ".xmf"):
+    if path.suffix.lower() in XDMF:
         with suppress(meshio.ReadError), meshio.xdmf.TimeSeriesReader(path) as series:
             points, cells = series.read_points_cells()
-            _, arrays, of_cells = series.read_data(_chosen(series.num_steps, step))
-            mesh = meshio.Mesh(points, cells, arrays, of_cells)
-    mesh = mesh or meshio.read(path)
-    with TemporaryDirectory() as folder:
-        out = Path(folder) / "mesh.vtu"
-        meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data).write(out)
-        return pyvista.read(out)
-
-
-READERS: dict[str, Callable[[Path, int | None], "UnstructuredGrid"]] = {
-    ".frd": _frd,
-    **dict.fromkeys((".med", ".xdmf", ".xmf", ".msh"), _by_meshio),
-}
+            _, *arrays = series.read_data(_chosen(series.num_steps, step))
+            return pyvista.from_meshio(meshio.Mesh(points, cells, *arrays))
+    return pyvista.from_meshio(meshio.read(path))
 
 
 def _write_faces(path: Path, out: Path, step: int | None) -> None:
@@ -115,7 +106,7 @@ def _write_faces(path: Path, out: Path, step: int | None) -> None:
     import pyvista
     from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
-    mesh = READERS.get(path.suffix.lower(), _by_vtk)(path, step)
+    mesh = _grid(path, step)
     nodes = mesh.cell_connectivity
     if mesh.n_points == 0 or len(nodes) == 0:
         raise ValueError("holds no mesh; allowed is a whole result file")
@@ -126,11 +117,9 @@ def _write_faces(path: Path, out: Path, step: int | None) -> None:
     faces.SetNonlinearSubdivisionLevel(1)
     faces.Update()
     surface = pyvista.wrap(faces.GetOutput()).triangulate()
-    numbers = {n: v for n, v in surface.point_data.items() if np.asarray(v).dtype.kind in "fiub"}
-    arrays = {f"array{i}": np.asarray(values) for i, values in enumerate(numbers.values())}
-    triangles = surface.faces.reshape(-1, 4)[:, 1:]
-    names = np.array(list(numbers), dtype=str)
-    np.savez(out, points=np.asarray(surface.points), triangles=triangles, names=names, **arrays)
+    arrays = {ARRAY + name: np.asarray(values) for name, values in surface.point_data.items()}
+    arrays = {name: values for name, values in arrays.items() if values.dtype.kind in "fiub"}
+    np.savez(out, points=surface.points, triangles=surface.faces.reshape(-1, 4)[:, 1:], **arrays)
 
 
 if __name__ == "__main__":
@@ -138,9 +127,8 @@ if __name__ == "__main__":
     logged = logging.handlers.BufferingHandler(1000)  # VTK's first complaint is the cause
     logging.basicConfig(handlers=[logged])
     try:
-        _write_faces(
-            Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]) if sys.argv[3:] else None
-        )
+        source, target, *steps = sys.argv[1:]
+        _write_faces(Path(source), Path(target), int(steps[0]) if steps else None)
     except ImportError as error:
         sys.exit(f"takes {error.name}, which is not installed; {INSTALL}")
     except Exception as error:  # of a damaged file libraries may say anything
