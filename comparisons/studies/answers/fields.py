@@ -4,7 +4,9 @@ The mesh is that of a body in plane strain: in a plane, or one layer of elements
 of its plane elements. x is the file's first axis. Signs of normal stresses are those of tension."""
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +19,7 @@ from comparisons.models.window import Window
 from comparisons.scenes.fields import LARGEST, SMALLEST
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import OutsideStress
-from comparisons.studies.answers.meshes import Faces, read_mesh
+from comparisons.studies.answers.meshes import read_mesh
 
 FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
@@ -25,18 +27,17 @@ SAME = 1e-6  # of the mesh's extent: nodes of one plane
 SAME_PLACE = 1e-12  # of the length: x closer than this coincide
 FACING = 0.5  # cosine between the normal of a top edge and the way up
 OFF_THE_SURFACE = 0.5  # half-widths: farther from the mean line no top is the scene's
-# Components along the file's axes 0, 1, 2: of a tensor by the number of its components.
+# Components of a tensor, along the file's axes, by their number.
 ORDERS = {
-    3: ((0, 0), (1, 1), (0, 1)),
-    4: ((0, 0), (1, 1), (2, 2), (0, 1)),
-    6: ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)),
-    9: tuple((i, j) for i in range(3) for j in range(3)),
+    3: ("xx", "yy", "xy"),
+    4: ("xx", "yy", "zz", "xy"),
+    6: ("xx", "yy", "zz", "xy", "yz", "xz"),
+    9: tuple(map("".join, product("xyz", repeat=2))),
 }
 TENSOR = re.compile(r"s|.*(stress|sigma|sigm|sief|cauchy).*")
 STEM = "(?:s|si|sig|sigma|stress|cauchystress)"
 COMPONENT = re.compile(f"{STEM}((?:[xyz]|[123]){{2}})")
 ROW = re.compile(f"{STEM}([xyz])")  # what VTK makes of xx, xy and xz that follow in an Exodus file
-AXES = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}
 OWN = ("sx", "sz", "txz")  # as this project's files have them, z into the body
 
 
@@ -48,9 +49,7 @@ class PlaneMesh:
     z: np.ndarray  # (n,) [m]
     triangles: np.ndarray  # (m, 3)
     stress: StressState  # (n,) [Pa]
-    # (n,) [Pa] of the arrays that the source names, where it names some
-    pressure: np.ndarray | None
-    shear: np.ndarray | None
+    arrays: Mapping[str, np.ndarray]  # as in the file
 
 
 def read_fields(
@@ -64,19 +63,28 @@ def read_fields(
     if friction not in frictions or (source.friction is None and len(frictions) > 1):
         listed = ", ".join(f"{friction:g}" for friction in frictions)
         raise ValueError(f"is of one friction coefficient; allowed is friction = one of {listed}")
-    body = plane_mesh(read_mesh(path, source.step), source, friction)
+    body = _plane_mesh(path, source, friction)
     nodes, pressure, shear = _surface_tractions(body)
-    reach = np.abs(body.x[nodes]) <= np.abs(problem.extent).max()
-    off = float(np.median(np.abs(body.z[nodes][reach]))) if reach.any() else np.inf
+    unit = source.unit("stress")
+    if source.pressure is not None:
+        pressure = unit * _component(body.arrays, source.pressure)[nodes]
+    if source.shear is not None:
+        name = str(source.shear[0])
+        shear = unit * _component(body.arrays, name.removeprefix("-"))[nodes]
+        shear = -shear if name.startswith("-") else shear
+    x, z = body.x[nodes], body.z[nodes]
+    reach = np.abs(x) <= np.abs(problem.extent).max()
+    off = float(np.median(np.abs(z[reach]))) if reach.any() else np.inf
     if off > OFF_THE_SURFACE * problem.hertz.half_width:
         raise ValueError(
             f"its surface lies {off:.3g} m off the scene's, or nowhere near x = 0; allowed is "
             "z_origin, x_origin or units that bring it there"
         )
-    x, pressure, shear = checked(body.x[nodes], pressure, shear)
-    if window is None or problem.scene.partial_slip is not None:
-        return x, pressure, shear, None
-    return x, pressure, shear, _stresses(body, nodes, friction, problem, window)
+    stress = None
+    if window is not None and problem.scene.partial_slip is None:
+        top = np.argsort(x)
+        stress = _stresses(body, (x[top], z[top]), friction, problem, window)
+    return *checked(x, pressure, shear), stress
 
 
 def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -96,8 +104,9 @@ def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[n
     return x, pressure, *others
 
 
-def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMesh:
-    """The rough body of a mesh: what hangs together and lies below the surface."""
+def _plane_mesh(path: Path, source: AnswerSection, friction: float) -> PlaneMesh:
+    """The rough body of a file: what hangs together and lies below the surface."""
+    faces = read_mesh(path, source.step)
     points = np.asarray(faces.points, dtype=float) * source.unit("length")
     vertical, sign = _up(points, source)
     level, tolerance = points[:, 3 - vertical], SAME * float(np.ptp(points))
@@ -107,32 +116,21 @@ def plane_mesh(faces: Faces, source: AnswerSection, friction: float) -> PlaneMes
             f"its nodes stand in {planes} planes along {'xyz'[3 - vertical]}; allowed is a mesh in "
             "a plane, or one layer of elements"
         )
-    triangles = faces.triangles
-    triangles = triangles[np.all(level[triangles] < level.min() + tolerance, axis=1)]
     x, z = points[:, 0] - source.x_origin, source.z_origin - sign * points[:, vertical]
-    triangles = _below(x, z, triangles)
-    used, triangles = np.unique(triangles, return_inverse=True)
-    arrays = {name: np.asarray(values)[used] for name, values in faces.arrays.items()}
-    unit = source.unit("stress")
-    stress = [unit * part for part in _stress_of(arrays, vertical, sign, friction)]
+    in_plane = np.all(level[faces.triangles] < level.min() + tolerance, axis=1)
+    used, triangles = np.unique(_below(z, faces.triangles[in_plane]), return_inverse=True)
+    arrays = {name: values[used] for name, values in faces.arrays.items()}
+    stress = source.unit("stress") * np.array(_stress_of(arrays, vertical, sign, friction))
     if not np.all(np.abs(stress) <= LARGEST):
         most = f"allowed is one up to {LARGEST:g} Pa at every node"
         raise ValueError(f"holds a stress that is no number, or too large; {most}")
-    pressure = shear = None
-    if source.pressure is not None:
-        pressure = unit * _component(arrays, source.pressure)
-    if source.shear is not None:
-        name = str(source.shear[0])
-        sense = -unit if name.startswith("-") else unit
-        shear = sense * _component(arrays, name.removeprefix("-"))
-    shape = x[used], z[used], triangles.reshape(-1, 3)
-    return PlaneMesh(*shape, StressState(*stress), pressure, shear)
+    return PlaneMesh(x[used], z[used], triangles.reshape(-1, 3), StressState(*stress), arrays)
 
 
 def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:
     """The axis out of the body, and its sign: the body is what reaches far to one side."""
     if source.up is not None:
-        return AXES[source.up[-1]], -1 if source.up.startswith("-") else 1
+        return "xyz".index(source.up[-1]), -1 if source.up.startswith("-") else 1
     vertical = 1 + int(np.argmax(np.ptp(points[:, 1:], axis=0)))
     above, below = points[:, vertical].max(), -points[:, vertical].min()
     if min(above, below) > max(above, below) / 3.0:
@@ -140,50 +138,50 @@ def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:
     return vertical, 1 if below > above else -1
 
 
-def _below(x: np.ndarray, z: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Triangles of the parts whose middle lies below the surface."""
-    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]]]).T
-    size = (len(x), len(x))
-    _, part = connected_components(coo_array((np.ones(ends.shape[1]), ends), size), directed=False)
-    one, other = (
-        np.stack([x[triangles[:, k]] - x[triangles[:, 0]], z[triangles[:, k]] - z[triangles[:, 0]]])
-        for k in (1, 2)
-    )
-    area = np.abs(one[0] * other[1] - one[1] * other[0])
-    moment = np.bincount(part[triangles[:, 0]], area * z[triangles].mean(axis=1), part.max() + 1)
-    kept = triangles[(moment > 0.0)[part[triangles[:, 0]]]]
+def _below(z: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Triangles of the parts whose nodes, on average, lie below the surface."""
+    ends = triangles[:, [0, 1, 1, 2]].reshape(-1, 2).T
+    joined = coo_array((np.ones(ends.shape[1]), ends), (len(z), len(z)))
+    _, part = connected_components(joined, directed=False)
+    kept = triangles[np.bincount(part, z)[part[triangles[:, 0]]] > 0.0]
     if len(kept) == 0:
         raise ValueError('has no body below its surface; allowed is up = "-y" or such, z_origin')
     return kept
 
 
 def _stress_of(
-    arrays: dict[str, np.ndarray], vertical: int, sign: int, friction: float
+    arrays: Mapping[str, np.ndarray], vertical: int, sign: int, friction: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """sx, sz and txz at the points, in the file's unit: whatever the arrays are called."""
     for suffix in ("", f" (friction {friction:g})"):
         if all(name + suffix in arrays for name in OWN):
             return tuple(arrays[name + suffix] for name in OWN)
-    components: dict[tuple[int, int], np.ndarray] = {}
+    components: dict[str, np.ndarray] = {}
     for name, values in arrays.items():
-        bare = re.sub(r"[^a-z0-9]", "", name.lower())
-        if values.ndim == 2 and (match := ROW.fullmatch(bare)):
-            pairs = (tuple(sorted((AXES[match[1]], other))) for other in range(3))
-            components |= dict(zip(pairs, values.T, strict=False))
-        elif values.ndim == 2 and values.shape[1] in ORDERS and TENSOR.fullmatch(bare):
-            for pair, column in zip(ORDERS[values.shape[1]], values.T, strict=True):
-                components.setdefault(pair, column)
-        elif values.ndim == 1 and (match := COMPONENT.fullmatch(bare)):
-            components.setdefault(tuple(sorted(AXES[axis] for axis in match[1])), values)
-    wanted = ((0, 0), (vertical, vertical), (0, vertical))
-    if any(pair not in components for pair in wanted):
+        columns = np.atleast_2d(values.T)
+        for axes, column in zip(_axes_of(name, len(columns)), columns, strict=False):
+            components.setdefault("".join(sorted(axes)), column)
+    up = "xyz"[vertical]
+    wanted = ("xx", 2 * up, f"x{up}")
+    if any(axes not in components for axes in wanted):
         listed = ", ".join(arrays) or "none"
         raise ValueError(f"holds no stresses in its plane, of {listed}; allowed is S or sxx, …")
-    along, out, shear = (components[pair] for pair in wanted)
+    along, out, shear = (components[axes] for axes in wanted)
     return along, out, -sign * shear
 
 
-def _component(arrays: dict[str, np.ndarray], name: str) -> np.ndarray:
+def _axes_of(name: str, count: int) -> Sequence[str]:
+    """Pairs of axes of an array's components, as xy; none where it is no stress."""
+    bare = re.sub(r"[^a-z0-9]", "", name.lower())
+    if count == 1:
+        match = COMPONENT.fullmatch(bare)
+        return [match[1].translate(str.maketrans("123", "xyz"))] if match else []
+    if match := ROW.fullmatch(bare):
+        return [match[1] + axis for axis in "xyz"]
+    return ORDERS.get(count, ()) if TENSOR.fullmatch(bare) else ()
+
+
+def _component(arrays: Mapping[str, np.ndarray], name: str) -> np.ndarray:
     """An array of numbers, or ARRAY.K, the component K of one, from 0."""
     array, _, column = name.partition(".")
     values = arrays.get(name, arrays.get(array))
@@ -207,42 +205,41 @@ def _surface_tractions(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray, np.ndar
     inward = np.stack([body.x[inner] - body.x[start], body.z[inner] - body.z[start]])
     normal *= -np.sign(np.sum(normal * inward, axis=0))
     up = normal[1] < -FACING * np.hypot(*normal)
-    nodes = np.unique([start[up], stop[up]])
-    at = np.searchsorted(nodes, [start[up], stop[up]]).ravel()
-    nx, nz = (np.bincount(at, np.tile(part[up], 2), len(nodes)) for part in normal)
+    nodes, at = np.unique([start[up], stop[up]], return_inverse=True)
+    nx, nz = (np.bincount(at.ravel(), np.tile(part[up], 2)) for part in normal)
     nx, nz = nx / np.hypot(nx, nz), nz / np.hypot(nx, nz)
-    stress = body.stress
-    sx, sz, txz = (part[nodes] for part in (stress.sx, stress.sz, stress.txz))
+    sx, sz, txz = (part[nodes] for part in (body.stress.sx, body.stress.sz, body.stress.txz))
     shear = (sz - sx) * nx * nz + txz * (nx**2 - nz**2)  # along (-nz, nx)
-    shear = shear if body.shear is None else body.shear[nodes]
-    if body.pressure is not None:
-        return nodes, body.pressure[nodes], shear
     return nodes, -(sx * nx**2 + 2.0 * txz * nx * nz + sz * nz**2), shear
 
 
 def _stresses(
-    body: PlaneMesh, nodes: np.ndarray, friction: float, problem: Problem, window: Window
+    body: PlaneMesh,
+    top: tuple[np.ndarray, np.ndarray],
+    friction: float,
+    problem: Problem,
+    window: Window,
 ) -> OutsideStress:
-    """Largest values at the nodes in the window, and the fields on it."""
+    """Largest values at the nodes in the window, and the fields on it.
+
+    top  x and z (k,) [m] of the surface, x ascending"""
     stress, nu = body.stress, problem.scene.body.poissons_ratio
     inside = window.holds(body.x) & (body.z <= window.z[-1])
     if not inside.any():
         raise ValueError("has no node in the window of [stress]; allowed is one around x = 0")
     shears = {"tau1": stress.tau1, "txz": np.abs(stress.txz), "von_mises": stress.von_mises(nu)}
-    extremes = {}
-    for name, values in shears.items():
-        top = int(np.argmax(np.where(inside, values, -np.inf)))
-        extremes[name] = Extremum(float(values[top]), float(body.x[top]), float(body.z[top]))
-    order = nodes[np.argsort(body.x[nodes])]
-    surface = np.interp(extremes["tau1"].x, body.x[order], body.z[order])
-    depth = extremes["tau1"].z - float(surface)
-    largest = int(np.argmax(np.where(inside, stress.tau1, -np.inf)))
-    beside = body.z[body.triangles[np.any(body.triangles == largest, axis=1)]]
+    nodes = {n: int(np.argmax(np.where(inside, v, -np.inf))) for n, v in shears.items()}
+    extremes = {
+        name: Extremum(float(shears[name][node]), float(body.x[node]), float(body.z[node]))
+        for name, node in nodes.items()
+    }
+    depth = extremes["tau1"].z - float(np.interp(extremes["tau1"].x, *top))
+    beside = body.z[body.triangles[np.any(body.triangles == nodes["tau1"], axis=1)]]
     spacing = 0.5 * float(np.ptp(beside))
-    return OutsideStress(friction, extremes, depth, spacing, on_window(body, window))
+    return OutsideStress(friction, extremes, depth, spacing, _on_window(body, window))
 
 
-def on_window(body: PlaneMesh, window: Window) -> StressState:
+def _on_window(body: PlaneMesh, window: Window) -> StressState:
     """Stresses (m, k) at the window's points, linear between nodes; none outside the mesh."""
     from matplotlib.tri import LinearTriInterpolator, Triangulation
 
