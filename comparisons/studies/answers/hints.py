@@ -12,13 +12,9 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from analytic.contact.problem import ContactError
-from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
-from analytic.profile import surface
 from comparisons.judging.comparison import relative_l2
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import solve_on
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, half_plane_of, pressed_on
 from comparisons.studies.answers.answer import Answer
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
@@ -66,16 +62,14 @@ class Curve:
         return relative_l2(self.on(reference.x + shift), reference.pressure)
 
     def times(self, length: float, pressure: float) -> "Curve":
-        return Curve(length * self.x, pressure * self.pressure)
-
-    def mirrored(self) -> "Curve":
-        return Curve(-self.x[::-1], self.pressure[::-1])
+        """Stretched along x, mirrored by a negative length."""
+        way = 1 if length > 0.0 else -1
+        return Curve(length * self.x[::way], pressure * self.pressure[::way])
 
     @property
-    def ends(self) -> tuple[float, float]:
+    def ends(self) -> np.ndarray:
         """First and last contact [m]."""
-        touching = self.x[self.pressure > 0.0]
-        return float(touching[0]), float(touching[-1])
+        return self.x[self.pressure > 0.0][[0, -1]]
 
 
 def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
@@ -88,10 +82,16 @@ def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     if -answer.pressure.min() > answer.pressure.max():
         curve = Curve(answer.x, np.maximum(-answer.pressure, 0.0))
         named.append(Hint("sign", -1.0, "the other sign of the pressures", curve.off(reference)))
-    curve, units = _in_units(curve, reference)
+    units = _units(curve, reference)
+    curve = curve.times(units["length"], units["stress"])
     now = curve.off(reference)
-    named += [replace(hint, left=now) for hint in units]
-    tried = [*_moved(curve, problem, reference), *_other_problems(curve, problem, level.grid)]
+    for kind, factor in units.items():
+        power = round(np.log10(factor) / 3.0)
+        text = f"a factor of 1e{3 * power} in the {kind} unit"
+        if power in UNITS[kind]:
+            text = f"a {kind} unit of {UNITS[kind][power]} in place of the SI unit"
+        named += [Hint(f"{kind} unit", factor, text, now)] if power else []
+    tried = [*_moved(curve, problem, reference), *_other_problems(curve, problem, level)]
     least = min(hint.left for hint in tried)
     best = next(hint for hint in tried if hint.left <= AS_WELL * least + ROUNDING)
     if now > DISTINCT and best.left <= EXPLAINS * now:
@@ -102,25 +102,17 @@ def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     return (Hint("unexplained", before, text, before),) if before > ANOTHER else ()
 
 
-def _in_units(curve: Curve, reference: Curve) -> tuple[Curve, list[Hint]]:
-    """The curve in SI, if lengths or pressures are off by powers of a thousand."""
-    extent = np.ptp(reference.ends) / max(np.ptp(curve.ends), 1e-300)
-    sizes = {"length": extent, "stress": reference.pressure.max() / curve.pressure.max()}
-    factors, named = {}, []
-    for kind, size in sizes.items():
-        power = round(float(np.log10(size)) / 3.0)
-        factors[kind] = 10.0 ** (3 * power)
-        if power:
-            text = f"a factor of 1e{3 * power} in the {kind} unit"
-            if power in UNITS[kind]:
-                text = f"a {kind} unit of {UNITS[kind][power]} in place of the SI unit"
-            named.append(Hint(f"{kind} unit", factors[kind], text, 0.0))
-    return curve.times(factors["length"], factors["stress"]), named
+def _units(curve: Curve, reference: Curve) -> dict[str, float]:
+    """Powers of a thousand that bring lengths and pressures next to the reference's."""
+    extents = [max(np.ptp(one.ends), 1e-300) for one in (reference, curve)]
+    peaks = reference.pressure.max(), curve.pressure.max()
+    sizes = {"length": extents, "stress": peaks}
+    return {n: 10.0 ** (3 * round(np.log10(one / own) / 3.0)) for n, (one, own) in sizes.items()}
 
 
 def _moved(curve: Curve, problem: Problem, reference: Curve) -> Iterator[Hint]:
     """Other axes, and a factor of two in the pressures."""
-    mirrored = curve.mirrored()
+    mirrored = curve.times(-1.0, 1.0)
     for kind, words, turned in (("", "", curve), ("mirrored ", "mirrored in x, ", mirrored)):
         if kind:
             yield Hint("mirrored", -1.0, "mirrored in x", turned.off(reference))
@@ -130,7 +122,7 @@ def _moved(curve: Curve, problem: Problem, reference: Curve) -> Iterator[Hint]:
     for factor, words in ((2.0, "twice"), (0.5, "half")):
         left = curve.times(1.0, 1.0 / factor).off(reference)
         yield Hint("factor", factor, f"{words} the pressure", left)
-    nearest, farthest = sorted(map(abs, curve.ends))
+    nearest, farthest = np.sort(np.abs(curve.ends))
     if nearest < 0.1 * farthest:  # one side alone
         x, half = reference.x, curve.on(reference.x)
         whole = half + np.where(np.abs(x) < 0.5 * (x[1] - x[0]), 0.0, mirrored.on(x))
@@ -140,8 +132,7 @@ def _moved(curve: Curve, problem: Problem, reference: Curve) -> Iterator[Hint]:
 
 def _shift(curve: Curve, reference: Curve) -> float:
     """By how much [m] the curve lies towards +x of the reference."""
-    middle = 0.5 * (sum(curve.ends) - sum(reference.ends))
-    reach = FARTHEST * float(np.ptp(reference.ends))
+    middle, reach = curve.ends.mean() - reference.ends.mean(), FARTHEST * np.ptp(reference.ends)
     tried = np.append(np.linspace(-0.5, 0.5, TRIED) * reach, 0.0) + np.array([[0.0], [middle]])
 
     def left(shift: float) -> float:
@@ -152,16 +143,14 @@ def _shift(curve: Curve, reference: Curve) -> float:
     return float(minimize_scalar(left, bounds=bounds, method="bounded", options=options).x)
 
 
-def _other_problems(curve: Curve, problem: Problem, grid: HatGrid) -> Iterator[Hint]:
+def _other_problems(curve: Curve, problem: Problem, level: Level) -> Iterator[Hint]:
     """The scene with twice or half its load, or its radius, on the half-plane."""
-    scene = problem.scene
-    profile = problem.surface.profile
-    heights = None if profile is None else surface(profile)
-    half_plane = HalfPlane(grid.count, grid.pitch, problem.modulus)
+    load, radius, grid = problem.hertz.load_per_length, problem.scene.roller.radius, level.grid
+    operator = half_plane_of(problem, grid, 0.0)
     for kind, factor, words in PROBLEMS:
-        load = problem.hertz.load_per_length * (factor if kind == "load" else 1.0)
-        radius = scene.roller.radius * (factor if kind == "radius" else 1.0)
-        gap = grid.hat_integrals(roller_gap(radius, heights), problem.knots)
+        fields = {"roller.radius": factor * radius} if kind == "radius" else {}
+        changed = replace(problem, scene=problem.scene.unchecked(fields))
+        constraints = problem.constraints(factor * load if kind == "load" else load)
         with suppress(ContactError):  # more than the hardness carries
-            solution = solve_on(half_plane, gap, grid.weights, problem.constraints(load))
+            solution = pressed_on(changed, grid, operator, constraints)
             yield Hint(kind, factor, words, curve.off(Curve(grid.x, solution.pressure)))
