@@ -215,10 +215,10 @@ class ExtentField(FieldType):
 class Several(FieldType):
     """A list of what `item` reads, at least one; a single value is a list of one."""
 
-    item: Number
+    item: FieldType
     repeated: bool = False  # whether one may stand there twice
 
-    def read(self, entry: object) -> tuple[float, ...]:
+    def read(self, entry: object) -> tuple:
         values = entry if isinstance(entry, list | tuple) else [entry]
         if not values:
             raise self.wrong("is an empty list")
@@ -227,7 +227,7 @@ class Several(FieldType):
         read = tuple(self.item.read(value) for value in values)
         for value in () if self.repeated else read:
             if read.count(value) > 1:
-                raise self.wrong(f"lists {value:g} twice")
+                raise self.wrong(f"lists {describe(value)} twice")
         return read
 
     def allowed(self) -> str:

@@ -27,6 +27,7 @@ from comparisons.scenes.fields import (
     Number,
     OneOf,
     SceneSection,
+    Several,
     Text,
     Unit,
     Whole,
@@ -39,18 +40,6 @@ NAME = re.compile(r"[A-Za-z][\w-]{0,39}", re.ASCII)
 PATH = Text("the path of a file, from the scene's folder")
 UNITS = {"length": Unit(LENGTH), "stress": Unit(PRESSURE)}
 COMMON = {"length": "mm", "stress": "MPa"}  # an example of each
-
-
-@dataclass(frozen=True)
-class Files(FieldType):
-    """A path, or one for each resolution."""
-
-    def read(self, entry: object) -> tuple[str, ...]:
-        values = entry if isinstance(entry, list | tuple) and entry else [entry]
-        return tuple(PATH.read(value) for value in values)
-
-    def allowed(self) -> str:
-        return f"{PATH.allowed()}, or a list of such, one for each resolution"
 
 
 @dataclass(frozen=True)
@@ -67,7 +56,7 @@ class Units(FieldType):
 
 
 class AnswerSection(SceneSection):
-    file: Annotated[tuple[str, ...], Files()]  # one for each resolution
+    file: Annotated[tuple[str, ...], Several(PATH, repeated=True)]  # one for each resolution
     columns: Annotated[tuple, Columns()] = (0, 1)  # of a table: those of x and pressure
     # the column of a table, or the array of a mesh, that holds the traction on the body towards +x;
     # with a minus before its name, the opposite one; None: of a mesh the stress on its top

@@ -135,31 +135,28 @@ class ScatterSection(SceneSection):
         if self.friction is not None and len(scene.load.friction) > 1:
             several = f"is given for {len(scene.load.friction)} coefficients"
             yield "scatter.friction", f"{several}; allowed with one"
+        limits: dict[str, tuple[float | None, FieldType]] = {
+            "load": (1.0, Number(DIMENSIONLESS, above=0.0)),
+            "tip_radius": (0.0, Number(LENGTH, above=0.0)),
+        }
         for name, (section, field) in FIELDS.items():
-            table, spread = getattr(scene, section), getattr(self, name)
+            table = getattr(scene, section)
             nominal = getattr(table, field)
-            if spread is None:
-                continue
-            if nominal is None:
-                problem = f"is given without {section}.{field}; allowed beside it"
-                yield f"scatter.{name}", problem
-            else:
-                nominal = nominal[0] if isinstance(nominal, tuple) else nominal
-                yield from self._beyond(name, spread.ends(nominal), field_type(type(table), field))
-        if self.load is not None:
-            yield from self._beyond("load", self.load.ends(1.0), Number(DIMENSIONLESS, above=0.0))
-        if self.tip_radius is not None:
-            yield from self._beyond("tip_radius", self.tip_radius.range, Number(LENGTH, above=0.0))
-
-    def _beyond(self, name: str, ends: tuple, field: FieldType) -> Iterator[tuple[str, str]]:
-        """Where an input reaches values that its field cannot have."""
-        for end in ends:
-            try:
-                field.read(end)
-            except ValueError:
-                deviations = f" (normal, cut off at {CUT_OFF:g} deviations)"
-                how = "" if getattr(self, name).range else deviations
-                yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
+            nominal = nominal[0] if isinstance(nominal, tuple) else nominal
+            limits[name] = nominal, field_type(type(table), field)
+        for name, (nominal, field) in limits.items():
+            spread = getattr(self, name)
+            if spread is not None and nominal is None:
+                yield (
+                    f"scatter.{name}",
+                    f"is given without {'.'.join(FIELDS[name])}; allowed beside it",
+                )
+            for end in spread.ends(nominal) if None not in (spread, nominal) else ():
+                try:
+                    field.read(end)
+                except ValueError:
+                    how = "" if spread.range else f" (normal, cut off at {CUT_OFF:g} deviations)"
+                    yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
 
 
 SECTION = ScatterSection
