@@ -54,7 +54,7 @@ def level_cost(name: str, number: int) -> LevelCost:
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
     window = window_of(problem) if plan.stress else None
     begin = processor_seconds()
-    level = finite_element_level(problem, plan, refinement, window, Stages())
+    level, *_ = finite_element_level(problem, plan, refinement, window, Stages()).values()
     seconds = processor_seconds() - begin
     unknowns = expected_unknowns(problem, plan, refinement, level.patches), level.unknowns
     memory = level.expected_memory / 1e6, peak_memory() / 1e6

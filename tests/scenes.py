@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from comparisons.figures.figure import Figure
     from comparisons.judging.study import Run
-    from comparisons.models.level import Level
+    from comparisons.models.level import Level, ModelRun
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
 
@@ -170,8 +170,9 @@ def run_of(
 def finite_elements(
     posed: "Problem", pitch: float | None = None, fields: bool = False, **refinement: object
 ) -> "Level":
-    """The finite elements on one level, the coarsest unless a pitch [m] is given; with the fields
-    of [stress] if asked for. `refinement` is further of its own."""
+    """The finite elements on one level at the first friction coefficient, the coarsest unless a
+    pitch [m] is given; with the fields of [stress] if asked for. `refinement` is further of its
+    own."""
     from comparisons.common.progress import Stages
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
@@ -180,7 +181,7 @@ def finite_elements(
 
     plan, window = make_plan(posed, ("finite_element",)), window_of(posed) if fields else None
     asked = Refinement(pitch or posed.pitches[0], **refinement)
-    return finite_element_level(posed, plan, asked, window, Stages())
+    return next(iter(finite_element_level(posed, plan, asked, window, Stages()).values()))
 
 
 def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
@@ -190,7 +191,8 @@ def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = F
     from comparisons.models.window import window_of
 
     window = window_of(posed) if fields else None
-    return half_plane_level(posed, pitch or posed.pitches[0], window, Stages())
+    levels = half_plane_level(posed, pitch or posed.pitches[0], window, Stages())
+    return next(iter(levels.values()))
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
@@ -206,6 +208,11 @@ def refound(run: "Run", study: str, **changes: object) -> "Run":
 def posed(run: "Run", **changes: object) -> "Run":
     """A finished run of another problem, plan or window, with the same findings."""
     return replace(run, solved=replace(run.solved, **changes))
+
+
+def with_levels(run: "Run", runs: dict[str, "ModelRun"]) -> "Run":
+    """A finished run whose models have other levels in every case, with the same findings."""
+    return posed(run, cases=tuple(replace(case, runs=runs) for case in run.solved.cases))
 
 
 def with_fields(run: "Run", fields: dict[str, object]) -> "Run":
@@ -228,7 +235,7 @@ def unconverged(run: "Run", model: str) -> "Run":
     levels_of = run.runs[model]
     solution = replace(levels_of.finest.solution, converged=False)
     levels = (*levels_of.levels[:-1], replace(levels_of.finest, solution=solution))
-    failed = posed(run, runs={**run.runs, model: replace(levels_of, levels=levels)})
+    failed = with_levels(run, {**run.runs, model: replace(levels_of, levels=levels)})
     said = contact.solve(failed.solved, {}, None).statements
     return refound(failed, contact.NAME, statements=said)
 

@@ -108,8 +108,11 @@ def unrun() -> dict[float, dict[str, float]]:
     """Figures of the half-plane on the README's first scene, by friction coefficient, on the level
     with which its run ends: one more than it begins with."""
     problem = problem_of(Scene.read("ground-unrun"))
-    level = half_plane_at(problem, problem.pitches[-1] / 2.0, fields=True)
-    return {mu: values_of(level, problem, mu) for mu in problem.scene.load.friction}
+    levels = {}
+    for mu in problem.scene.load.friction:
+        level = half_plane_at(problem.under(mu), problem.pitches[-1] / 2.0, fields=True)
+        levels[mu] = values_of(level, problem)
+    return levels
 
 
 def test_init_is_the_door_that_it_says(folder, tmp_path):

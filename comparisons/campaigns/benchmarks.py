@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
-from comparisons.campaigns.cases import Campaign, Case
+from comparisons.campaigns.cases import Campaign, Trial
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
 from comparisons.output.terminal import plain_table
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
-def cases() -> list[Case]:
+def cases() -> list[Trial]:
     return [
-        Case("benchmark", name, "both", partial(figures_of_benchmark, name))
+        Trial("benchmark", name, "both", partial(figures_of_benchmark, name))
         for name in benchmark_names()
     ]
 

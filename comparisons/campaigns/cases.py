@@ -94,8 +94,8 @@ def bounds_text(figure: Figure) -> str:
 
 
 @dataclass(frozen=True)
-class Case:
-    """A named case of a model; `solve` computes its figures."""
+class Trial:
+    """A named trial of a model; `solve` computes its figures."""
 
     group: str
     name: str
@@ -107,7 +107,7 @@ class Case:
 class Row:
     """A case with what it yields; `error` is the message of what it raised, else None."""
 
-    case: Case
+    case: Trial
     figures: CaseFigures
     error: str | None
     seconds: float  # of a processor
@@ -180,7 +180,7 @@ class Row:
 
 def summary_row(group: str, name: str, model: str, *figures: Figure) -> Row:
     """A row that follows from others."""
-    return Row(Case(group, name, model, tuple), figures, None, 0.0)
+    return Row(Trial(group, name, model, tuple), figures, None, 0.0)
 
 
 def _solved(solve: Callable[[], Iterable[Figure]]) -> tuple[CaseFigures, str | None, float]:
@@ -196,7 +196,7 @@ def _solved(solve: Callable[[], Iterable[Figure]]) -> tuple[CaseFigures, str | N
 
 
 def rows_of(
-    cases: Iterable[Case], callback: ProgressCallback = no_progress, kept: Cache = NO_CACHE
+    cases: Iterable[Trial], callback: ProgressCallback = no_progress, kept: Cache = NO_CACHE
 ) -> tuple[Row, ...]:
     """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
     what solves a case can be pickled then."""
@@ -217,7 +217,7 @@ def rows_of(
     return tuple(rows)
 
 
-def answers_of(out: Path, command: str, cases: Iterable[Case]) -> Cache:
+def answers_of(out: Path, command: str, cases: Iterable[Trial]) -> Cache:
     """Answers of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
@@ -286,7 +286,7 @@ def check_places(command: str, out: Path, junit: Path | None) -> None:
 
 def carry_out(
     command: str,
-    cases: Sequence[Case],
+    cases: Sequence[Trial],
     out: Path,
     junit: Path | None,
     callback: ProgressCallback,

@@ -98,7 +98,7 @@ def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
         parts = {f.name: encoded(getattr(value, f.name), arrays) for f in fields(value)}
         return {"kind": type(value).__name__, "fields": parts}
     if isinstance(value, np.ndarray):
-        name = f"a{len(arrays)}"
+        name = next((n for n, known in arrays.items() if known is value), f"a{len(arrays)}")
         arrays[name] = value
         return {"array": name}
     if isinstance(value, tuple):

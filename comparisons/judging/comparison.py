@@ -19,7 +19,7 @@ from comparisons.judging.contact import (
     uncertainties,
     values_of,
 )
-from comparisons.judging.study import Solved, Study
+from comparisons.judging.study import Case, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -30,52 +30,42 @@ SHOWN = 2.0 / 3.0
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
-    return Findings(compared(solved.problem, solved.runs, solved.window))
+    """Every quantity and norm of both models, in the order of friction."""
+    figures = []
+    for case in solved.cases:
+        pair = [case.runs[model] for model in MODELS]
+        figures += differences_of(*pair, case).values()
+        figures += norms_of(*pair, case, solved.window)
+    return Findings(tuple(figures))
 
 
-def compared(
-    problem: Problem, runs: Mapping[str, ModelRun], window: Window | None
-) -> tuple[Figure, ...]:
-    """Every quantity and norm of finished runs of both models, in the order of friction."""
-    figures, pair = [], [runs[model] for model in MODELS]
-    for friction in problem.scene.load.friction:
-        figures += differences_of(*pair, problem, friction).values()
-        figures += norms_of(*pair, friction, window)
-    return tuple(figures)
-
-
-def differences_of(
-    half_plane: ModelRun, finite_element: ModelRun, problem: Problem, friction: float
-) -> dict[str, Figure]:
+def differences_of(half_plane: ModelRun, finite_element: ModelRun, case: Case) -> dict[str, Figure]:
     """By quantity. The differences are figures of their own: both models have the same pressure
     elements, and what these leave out, is in both."""
-    half_plane, finite_element = half_plane.under(friction), finite_element.under(friction)
+    problem, coarsest = case.problem, half_plane.levels[0]
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
-    history = [differences(one, other, problem, friction) for one, other in pairs]
-    coarsest = half_plane.levels[0]
-    repeated = by_repetition(
-        finite_element, lambda level: differences(coarsest, level, problem, friction)
-    )
+    history = [differences(one, other, problem) for one, other in pairs]
+    repeated = by_repetition(finite_element, lambda level: differences(coarsest, level, problem))
     finest = half_plane.finest, finite_element.finest
-    reference, made = values_of(finite_element.finest, problem, friction), {}
+    reference, made = values_of(finite_element.finest, problem), {}
     for name, difference in history[-1].items():
         quantity, tolerance = QUANTITIES[name], problem.scene.tolerances.get(name)
         resolution = relative_resolution(*finest) if name == "contact_length" else 0.0
         values = tuple(of_level[name] for of_level in history)
-        order = formal_order(name, finest, problem, friction)
+        order = formal_order(name, finest, problem)
         convergence = grid_convergence(values, order, resolution)
         unsolved = iteration(*(level.solution for level in finest))
         unsolved *= max(1.0, abs(1.0 + difference))
         # meshes and hats lack not the same of a crest: their difference was seen to stand still on
         # levels that lack it, and to fall from 2 % to nothing on those that come to resolve it
-        left = max(left_by_crest(name, level, friction) for level in finest)
+        left = max(left_by_crest(name, level) for level in finest)
         parts = unsolved, max(convergence.uncertainty, left), *repeated[name]
         made[name] = Figure(
             study=NAME,
             quantity=name,
             source="half_plane",
             value=difference,
-            at={"friction": friction},
+            at=case.at,
             against="finite_element",
             scale=abs(reference[name]) or quantity.scale(problem.hertz),
             uncertainty=numerical(*parts, convergence),
@@ -86,15 +76,13 @@ def differences_of(
 
 
 def norms_of(
-    half_plane: ModelRun, finite_element: ModelRun, friction: float, window: Window | None
+    half_plane: ModelRun, finite_element: ModelRun, case: Case, window: Window | None
 ) -> Iterator[Figure]:
     """The norms of both models' difference. They may be equal by chance: what a repetition changes
     counts by its own norm."""
-    half_plane, finite_element = half_plane.under(friction), finite_element.under(friction)
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
-    history = [norms(one, other, friction, window) for one, other in pairs]
-    first = finite_element.levels[0]
-    repeated = by_repetition(finite_element, lambda level: norms(level, first, friction, window))
+    history, first = [norms(*pair, window) for pair in pairs], finite_element.levels[0]
+    repeated = by_repetition(finite_element, lambda level: norms(level, first, window))
     unsolved = iteration(half_plane.finest.solution, finite_element.finest.solution)
     for name, size in history[-1].items():
         values = tuple(of_level[name] for of_level in history)
@@ -105,19 +93,17 @@ def norms_of(
             quantity=name,
             source="half_plane",
             value=size,
-            at={"friction": friction},
+            at=case.at,
             against="finite_element",
             uncertainty=numerical(*parts, convergence),
             levels=values,
         )
 
 
-def differences(
-    level: Level, reference: Level, problem: Problem, friction: float
-) -> dict[str, float]:
+def differences(level: Level, reference: Level, problem: Problem) -> dict[str, float]:
     """(level - reference) / reference of every figure, over the Hertz contact's where the
     reference's vanishes."""
-    one, other = (values_of(known, problem, friction) for known in (level, reference))
+    one, other = (values_of(known, problem) for known in (level, reference))
     return relative_differences(one, other, problem)
 
 
@@ -140,11 +126,9 @@ def relative_resolution(level: Level, reference: Level) -> float:
     return (edges[0] + ratio * edges[1]) / reference.contact_length
 
 
-def norms(
-    level: Level, reference: Level, friction: float, window: Window | None
-) -> dict[str, float]:
+def norms(level: Level, reference: Level, window: Window | None) -> dict[str, float]:
     """The norms of a pair of levels on the same pressure elements."""
-    stresses = [known.stress(friction) for known in (level, reference)]
+    stresses = level.stress, reference.stress
     return pair_norms(
         (level.solution.pressure, reference.solution.pressure),
         tuple(None if stress is None else stress.tau1 for stress in stresses),
@@ -180,16 +164,14 @@ def pair_norms(
     return sizes
 
 
-def discretisations(
-    runs: dict[str, ModelRun], problem: Problem, friction: float
-) -> dict[str, float]:
+def discretisations(case: Case) -> dict[str, float]:
     """The discretisation uncertainty that refinement is to lower: the difference's, which is
     judged, or SHOWN times a model's own, whose figures are shown, where that is larger; of one
     model alone its own. Not the sum: what the pressure elements leave out cancels."""
-    by_model = [uncertainties(run, problem, friction) for run in runs.values()]
-    if len(runs) == 1:
+    by_model = [uncertainties(run, case.problem) for run in case.runs.values()]
+    if len(by_model) == 1:
         return {name: _left(stated) for name, stated in by_model[0].items()}
-    pair = differences_of(*runs.values(), problem, friction)
+    pair = differences_of(*case.runs.values(), case)
     sizes = {name: _left(difference.uncertainty) for name, difference in pair.items()}
     for name in by_model[0]:
         larger = max(_left(stated[name]) for stated in by_model)

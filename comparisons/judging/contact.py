@@ -25,7 +25,7 @@ from comparisons.figures.uncertainty import (
     numerical,
     of_increments,
 )
-from comparisons.judging.study import SCATTER, Run, Solved, Study
+from comparisons.judging.study import SCATTER, Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.smooth import closed_form
@@ -57,29 +57,26 @@ EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mise
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Of every model at every friction coefficient."""
-    problem, runs = solved.problem, solved.runs.values()
-    figures = [
-        f for run in runs for mu in problem.scene.load.friction for f in _of(problem, run, mu)
-    ]
-    statements = []
-    for run in runs:
-        converged = all(level.converged for level in run.levels)
-        statements.append(Statement("converged", "yes" if converged else "no", run.name))
-        if (why := no_approach(problem, run)) is not None:
-            statements.append(Statement("no approach", why, run.name))
-    series = tuple(table for run in runs for table in _series(problem, run))
-    return Findings(tuple(figures), series, tuple(statements))
+    figures, series, statements = [], [], []
+    for name in solved.runs:
+        for case in solved.cases:
+            figures += _of(case, case.runs[name])
+        levels = (level for case in solved.cases for level in case.runs[name].levels)
+        converged = "yes" if all(level.converged for level in levels) else "no"
+        statements.append(Statement("converged", converged, name))
+        if (why := no_approach(solved.problem, name)) is not None:
+            statements.append(Statement("no approach", why, name))
+        series += _series(solved, name)
+    return Findings(tuple(figures), tuple(series), tuple(statements))
 
 
-def values_of(level: Level, problem: Problem, friction: float) -> dict[str, float]:
+def values_of(level: Level, problem: Problem) -> dict[str, float]:
     """The compared quantities that one model has by itself, SI."""
-    level = level.under(friction)
     values = {
         "peak_pressure": float(level.solution.pressure.max()),
         "contact_length": level.contact_length,
     }
-    stress = level.stress(friction)
-    if stress is not None:
+    if (stress := level.stress) is not None:
         tau1 = stress.extremes["tau1"]
         values["tau1_max"] = tau1.value
         values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
@@ -103,42 +100,41 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
     return problem.surface.profile.spline()(x)
 
 
-def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
+def uncertainties(run: ModelRun, problem: Problem) -> dict[str, Uncertainty]:
     """Of every compared quantity that the model has by itself."""
-    run = run.under(friction)
-    history = [values_of(level, problem, friction) for level in run.levels]
-    repeated = by_repetition(run, lambda level: values_of(level, problem, friction))
+    history = [values_of(level, problem) for level in run.levels]
+    repeated = by_repetition(run, lambda level: values_of(level, problem))
     stated = {}
     for name, value in history[-1].items():
         values = [of_level[name] for of_level in history]
         resolution = 0.0
         if name == "contact_length":
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
-        order = formal_order(name, run.levels, problem, friction)
+        order = formal_order(name, run.levels, problem)
         convergence = grid_convergence(values, order, resolution)
         scale = abs(value) or COMPARED[name].scale(problem.hertz)
         domain, increments = (size / scale for size in repeated[name])
-        left = max(convergence.uncertainty / scale, left_by_crest(name, run.finest, friction))
+        left = max(convergence.uncertainty / scale, left_by_crest(name, run.finest))
         parts = iteration(run.finest.solution), left, domain, increments
         stated[name] = numerical(*parts, convergence)
     return stated
 
 
-def left_by_crest(name: str, level: Level, friction: float) -> float:
+def left_by_crest(name: str, level: Level) -> float:
     """Bound of a level's error by crests that it does not resolve, relative: of the peak pressure,
     and of a largest shear so near to the surface that it belongs to a crest."""
     key = EXTREMES.get(name)
-    near = key and level.stress(friction).extremes[key].z <= UNDER_CREST * level.grid.pitch
+    near = key and level.stress.extremes[key].z <= UNDER_CREST * level.grid.pitch
     return level.unresolved_crest if near or name == "peak_pressure" else 0.0
 
 
-def formal_order(name: str, levels: Sequence[Level], problem: Problem, friction: float) -> float:
+def formal_order(name: str, levels: Sequence[Level], problem: Problem) -> float:
     """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
     largest stress to the surface, there it stands at an end of contact, next to which stresses go
     with the square root of the distance: half an order, whatever the elements."""
     key = EXTREMES.get(name)
     if key is not None:
-        depths = (level.stress(friction).extremes[key].z for level in levels)
+        depths = (level.stress.extremes[key].z for level in levels)
         if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
             return LOWEST_ORDER
     order, elements = COMPARED[name].formal_order, problem.scene.finite_element
@@ -163,9 +159,9 @@ def by_repetition(
     }
 
 
-def no_approach(problem: Problem, run: ModelRun) -> str | None:
+def no_approach(problem: Problem, model: str) -> str | None:
     """Why there is no approach from first touch: a body has no datum; None where both have one."""
-    if run.name == "half_plane":
+    if model == "half_plane":
         return "the displacement of a half-plane is known but for a constant"
     if problem.scene.body.thickness is None:
         return "the body is unbounded: the value would grow with the size of its mesh"
@@ -174,13 +170,12 @@ def no_approach(problem: Problem, run: ModelRun) -> str | None:
     return None
 
 
-def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
-    """The figures of one model at one friction coefficient."""
-    run = run.under(friction)
-    level, half_width = run.finest, problem.hertz.half_width
-    levels = [values_of(level, problem, friction) for level in run.levels]
-    stated = uncertainties(run, problem, friction)
-    peak, stress = peak_position(level), level.stress(friction)
+def _of(case: Case, run: ModelRun) -> Iterator[Figure]:
+    """The figures of one model."""
+    problem, level = case.problem, run.finest
+    half_width, peak, stress = problem.hertz.half_width, peak_position(level), level.stress
+    levels = [values_of(level, problem) for level in run.levels]
+    stated = uncertainties(run, problem)
     # what is not compared [SI], and the places [m] of largest values
     values = {
         "contact_ratio": level.contact_length / (2.0 * half_width),
@@ -188,7 +183,7 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
         "peak_position": peak,
         "load_per_length": level.solution.load,
     }
-    if no_approach(problem, run) is None:
+    if no_approach(problem, run.name) is None:
         values["approach"] = level.solution.approach - problem.first_touch
     places: dict[str, tuple[float, ...]] = {"peak_pressure": (peak,)}
     if stress is not None:
@@ -214,7 +209,7 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
             quantity=name,
             source=run.name,
             value=value,
-            at={"friction": friction},
+            at=case.at,
             scale=scale,
             uncertainty=uncertainty,
             place=places.get(name),
@@ -223,16 +218,15 @@ def _of(problem: Problem, run: ModelRun, friction: float) -> Iterator[Figure]:
         )
 
 
-def _series(problem: Problem, run: ModelRun) -> Iterator[Series]:
+def _series(solved: Solved, name: str) -> Iterator[Series]:
     """Patches of contact, and what each level took beside what the laws of cost said."""
-    for level in run.finest.by_friction:
-        at = {} if level.friction is None else {"friction": level.friction}
-        friction = at.get("friction", problem.scene.load.friction[0])
-        stated = uncertainties(run, problem, friction)["contact_length"].total
-        edges = (stated * level.contact_length,) * len(level.patches)
-        start, stop = (Column(tuple(ends), "m", edges) for ends in level.patches.T.tolist())
-        yield Series("patches", {"start": start, "stop": stop}, run.name, at)
+    run = solved.runs[name]
     level = run.finest
+    for (at, finest), case in zip(solved.contacts(name), solved.cases, strict=False):
+        stated = uncertainties(case.runs[name], case.problem)["contact_length"].total
+        edges = (stated * finest.contact_length,) * len(finest.patches)
+        start, stop = (Column(tuple(ends), "m", edges) for ends in finest.patches.T.tolist())
+        yield Series("patches", {"start": start, "stop": stop}, name, at)
     took = [
         {
             "pitch": level.grid.pitch,

@@ -24,9 +24,9 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact
 from comparisons.judging.comparison import relative_l2
 from comparisons.judging.contact import values_of
-from comparisons.judging.study import CONVERGED, WHY_NOT, Run, Solved, Study
+from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Run, Solved, Study
 from comparisons.models.half_plane import half_plane_on
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level
 from comparisons.models.plan import no_coupling
 from comparisons.models.posing import surface_ends
 from comparisons.models.problem import Problem
@@ -73,9 +73,8 @@ class Coupling:
 
 def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
     """Of the half-plane as far as it is refined, computed once."""
-    run, problem = solved.runs["half_plane"], solved.problem
-    levels, window = len(run.levels), solved.window
-    return tasks.held(NAME, levels, lambda: couplings(run, problem, window, tasks.callback))
+    levels = len(solved.runs["half_plane"].levels)
+    return tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
@@ -112,29 +111,16 @@ def figures_of_changes(
                 yield Figure(NAME, name, "half_plane", value, at, against, scale, unsure)
 
 
-def couplings(
-    run: ModelRun, problem: Problem, window: Window | None, callback: ProgressCallback
-) -> tuple[Coupling, ...]:
+def couplings(solved: Solved, callback: ProgressCallback) -> tuple[Coupling, ...]:
     """One for each friction coefficient, in the order of the scene, from the finished
     half-plane."""
-    changes = []
-    for friction in problem.scene.load.friction:
-        why = no_coupling(problem, friction)
-        if why is None:
-            level = run.finest.under(friction)
-            changes.append(_coupling(problem.under(friction), level, friction, window, callback))
-        else:
-            changes.append(Coupling(friction, {}, why=why))
-    return tuple(changes)
+    return tuple(_coupling(case, solved.window, callback) for case in solved.cases)
 
 
-def _coupling(
-    problem: Problem,
-    level: Level,
-    friction: float,
-    window: Window | None,
-    callback: ProgressCallback,
-) -> Coupling:
+def _coupling(case: Case, window: Window | None, callback: ProgressCallback) -> Coupling:
+    problem, friction, level = case.problem, case.friction, case.runs["half_plane"].finest
+    if (why := no_coupling(problem, friction)) is not None:
+        return Coupling(friction, {}, why=why)
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
     size = friction * problem.dundurs_beta
     # the level itself was solved with coupling or without; solve the other way
@@ -143,7 +129,8 @@ def _coupling(
     more = int(np.ceil(0.5 * abs(size) * level.grid.count))
     while True:
         grid = _stretched(problem, level.grid, more)
-        other = half_plane_on(problem, grid, other_size, (friction,), window, stages, fields=False)
+        how = problem, grid, other_size, (friction,), window, stages
+        [other] = half_plane_on(*how, fields=False).values()
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break
@@ -154,7 +141,7 @@ def _coupling(
     moved, still = (level, other) if problem.coupling else (other, level)
     return Coupling(
         friction=friction,
-        changes=_changes(problem, moved, still, friction),
+        changes=_changes(problem, moved, still),
         converged=moved.solution.converged and still.solution.converged,
         iterations=other.solution.iterations,
         seconds=sum(stages.seconds.values()),
@@ -178,8 +165,8 @@ def _spread(level: Level, grid: HatGrid) -> Level:
     return replace(level, grid=grid, solution=replace(level.solution, pressure=pressure))
 
 
-def _changes(problem: Problem, moved: Level, still: Level, friction: float) -> dict[str, Change]:
-    values, before = (values_of(level, problem, friction) for level in (moved, still))
+def _changes(problem: Problem, moved: Level, still: Level) -> dict[str, Change]:
+    values, before = (values_of(level, problem) for level in (moved, still))
     changes = {name: Change(v, _relative(v, before[name])) for name, v in values.items()}
     shift = _centroid(moved) - _centroid(still)
     changes[SHIFT] = Change(shift, shift / problem.hertz.half_width)

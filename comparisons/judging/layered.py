@@ -23,19 +23,17 @@ OF_LAYERS = {"finite_size", "coating"}
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    problem, finite_elements = solved.problem, solved.runs[OTHER]
-    held = contained(problem.scene)
-    runs, figures = operator_runs(problem, held, finite_elements, solved.window, tasks), []
-    for friction, run in (runs or {}).items():
-        stated = uncertainties(run, problem, friction)
-        for name, value in values_of(run.finest, problem, friction).items():
-            at = {"friction": friction}
-            size = abs(value) or QUANTITIES[name].scale(problem.hertz)
+    runs, figures = operator_runs(solved, contained(solved.problem.scene), tasks), []
+    for case in solved.cases if runs else ():
+        run, problem, finite_elements = runs[case.friction], case.problem, case.runs[OTHER]
+        stated = uncertainties(run, problem)
+        for name, value in values_of(run.finest, problem).items():
+            at, size = case.at, abs(value) or QUANTITIES[name].scale(problem.hertz)
             figures.append(
                 Figure(LAYERED, name, OPERATORS, value, at, scale=size, uncertainty=stated[name])
             )
-        rows = [*differences_of(run, finite_elements, problem, friction).values()]
-        rows += norms_of(run, finite_elements, friction, solved.window)
+        rows = [*differences_of(run, finite_elements, case).values()]
+        rows += norms_of(run, finite_elements, case, solved.window)
         figures += [replace(row, study=LAYERED, source=OPERATORS) for row in rows]
     return Findings(tuple(figures))
 

@@ -34,24 +34,60 @@ LAYERED = "layered"  # the study that does so for the analytic model of a layer 
 LADDER = "ladder"  # the study that judges other models beside it, which no run answers for
 
 
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A scene at one friction coefficient, as far as it is solved."""
+
+    problem: Problem  # at that coefficient alone
+    runs: Mapping[str, ModelRun] = field(default_factory=dict)  # by model
+
+    @property
+    def friction(self) -> float:
+        return self.problem.scene.load.friction[0]
+
+    @property
+    def at(self) -> dict[str, float]:
+        """Its place among the cases of a scene, for the names of figures."""
+        return {"friction": self.friction}
+
+
 @dataclass(frozen=True)
 class Solved:
-    """A scene as far as it is solved."""
+    """A scene as far as it is solved: its cases, which share what friction does not move."""
 
     problem: Problem
     plan: Plan
     window: Window | None  # points of the common field, None without [stress]
-    runs: Mapping[str, ModelRun]  # by model; empty before anything is solved
+    cases: tuple[Case, ...]  # in the order of the scene's friction coefficients
     refinement: str = ""  # why it stopped
     # from outside, read before, each on its resolutions; None: the scene's files are read
     answers: "Mapping[str, tuple] | None" = None
     opens: "Opens | None" = None  # workers for samples; None: those of the run's tasks
     all_methods: bool = False  # solve it by every method and resolution, for what they cost
 
+    @property
+    def runs(self) -> Mapping[str, ModelRun]:
+        """The models of the first case, by name; empty before anything is solved. Their sizes and
+        costs are those of all cases, which are solved together."""
+        return self.cases[0].runs
+
+    def case(self, friction: float) -> Case:
+        return next(case for case in self.cases if case.friction == friction)
+
+    def contacts(self, model: str) -> list[tuple[dict[str, float], Level]]:
+        """The finest contacts of a model and their place among the cases: each one's, or the only
+        one, which has none, where friction does not move it."""
+        finest = [(case.at, case.runs[model].finest) for case in self.cases]
+        first = finest[0][1]
+        moves = any(not level.shares_contact(first) for _, level in finest)
+        return finest if moves else [({}, first)]
+
 
 def unsolved(problem: Problem, plan: Plan) -> Solved:
     """A scene of which nothing is solved yet."""
-    return Solved(problem, plan, window_of(problem) if plan.stress else None, {})
+    frictions = problem.scene.load.friction
+    cases = tuple(Case(problem.under(friction)) for friction in frictions)
+    return Solved(problem, plan, window_of(problem) if plan.stress else None, cases)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,18 +154,18 @@ class Run:
     def levels(self, friction: float) -> dict[str, Level]:
         """The finest level of every model at a friction coefficient, last of the whole model where
         it is not the scene's own finite elements."""
-        runs = {name: run.under(friction) for name, run in self.runs.items()}
-        finest = {name: run.finest for name, run in runs.items()}
-        budget = self.data(MODEL_ERROR)
-        whole = None if budget is None else budget.wholes.get(friction)
-        if whole is not None and all(whole is not level for level in runs["finite_element"].levels):
-            finest[WHOLE] = whole
+        case, budget = self.solved.case(friction), self.data(MODEL_ERROR)
+        finest = {name: run.finest for name, run in case.runs.items()}
+        if budget is not None and budget.wholes:
+            whole = budget.wholes[self.solved.cases.index(case)]
+            if all(whole is not level for level in case.runs["finite_element"].levels):
+                finest[WHOLE] = whole
         return finest
 
     def pair(self, friction: float) -> dict[str, Level]:
         """The half-plane and the last of `levels` on the same elements, or the only model."""
         name, last = list(self.levels(friction).items())[-1]
-        first = next(iter(self.runs.values())).under(friction)
+        first = next(iter(self.solved.case(friction).runs.values()))
         return {first.name: first.beside(last), name: last}
 
     @property

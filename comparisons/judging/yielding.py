@@ -32,8 +32,7 @@ from comparisons.judging.effects.estimates import (
 )
 from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.model_error.account import ErrorBudget
-from comparisons.judging.study import MODEL_ERROR, Run, Solved, Study
-from comparisons.models.level import ModelRun
+from comparisons.judging.study import MODEL_ERROR, Case, Run, Solved, Study
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 
@@ -167,7 +166,7 @@ class FlowAssessment:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Figures by friction coefficient, of the scene, and what flows in words. What an elastic body
     exceeds for certain is judged where the models are compared."""
-    flow = flow_assessment(solved.problem, solved.runs)
+    flow = flow_assessment(solved)
     selection = before[MODEL_ERROR].data.selection if MODEL_ERROR in before else None
     if selection is not None and FLOW in selection.whole | selection.found:
         flow = replace(flow, flow="idle" if FLOW in selection.found else "plastic")
@@ -218,7 +217,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 def _figures_of_flow(problem: Problem, budget: ErrorBudget) -> list[Figure]:
     """How far the whole model flows, and over what slopes."""
     figures, info = [], problem.surface.info
-    for friction, level in budget.wholes.items():
+    for friction, level in zip(problem.scene.load.friction, budget.wholes, strict=False):
         strain = level.plastic_strain
         if strain is not None:
             slope = 0.5 * level.extent / problem.scene.roller.radius  # of the roller, at the edges
@@ -229,9 +228,9 @@ def _figures_of_flow(problem: Problem, budget: ErrorBudget) -> list[Figure]:
     return figures
 
 
-def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAssessment:
+def flow_assessment(solved: Solved) -> FlowAssessment:
     """Of the half-plane where it was solved, else of the finite elements."""
-    scene, run = problem.scene, runs.get("half_plane") or next(iter(runs.values()))
+    scene = solved.problem.scene
     plastic = scene.finite_element.plastic
     yield_stress, hardness = scene.body.yield_stress, scene.body.hardness
     hardness = hardness or (yield_stress and TABOR * yield_stress)
@@ -243,16 +242,18 @@ def flow_assessment(problem: Problem, runs: Mapping[str, ModelRun]) -> FlowAsses
         ideal_strength=scene.body.material.shear_modulus / (2.0 * pi)
         if scene.body.youngs_modulus > STIFF
         else inf,
-        checks=tuple(_check(problem, run, mu, hardness) for mu in scene.load.friction),
+        checks=tuple(_check(case, hardness) for case in solved.cases),
         asked=not scene.asks_elastic,
     )
 
 
-def _check(problem: Problem, run: ModelRun, friction: float, hardness: float | None) -> FlowCheck:
-    level, field = run.finest.under(friction), run.finest.stress(friction)
+def _check(case: Case, hardness: float | None) -> FlowCheck:
+    problem, friction = case.problem, case.friction
+    run = case.runs.get("half_plane") or next(iter(case.runs.values()))
+    level, field = run.finest, run.finest.stress
     pressure, weights = level.solution.pressure, level.grid.weights
     peak = float(pressure.max())
-    stated = uncertainties(run, problem, friction)
+    stated = uncertainties(run, problem)
     if field is None:
         tau1, mises = peak * hertz_extremes(UNIT, friction).tau1.value, None
         uncertainty = stated["peak_pressure"].total

@@ -17,7 +17,7 @@ from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
-from comparisons.models.level import ExpectedCost, Level, StressResult, under_each
+from comparisons.models.level import ExpectedCost, Level, StressResult, by_friction
 from comparisons.models.problem import Problem, ends_of, half_plane_of, patches_of, pressed_on
 from comparisons.models.window import Window, search_window
 
@@ -50,15 +50,16 @@ def expected_with(problem: Problem, pitch: float, window: Window | None) -> Expe
 
 def half_plane_level(
     problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
-) -> Level:
-    """Solve one level: contact, and in a window the largest stresses and, for `fields`, all."""
+) -> dict[float, Level]:
+    """Solve one level at each friction coefficient: contact, and in a window the largest stresses
+    and, for `fields`, all."""
     grid = problem.grid(pitch)
 
-    def solve(problem: Problem) -> Level:
+    def solve(problem: Problem) -> dict[float, Level]:
         frictions = problem.scene.load.friction
         return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
 
-    return under_each(problem, "half_plane", solve)
+    return by_friction(problem, "half_plane", solve)
 
 
 def half_plane_on(
@@ -69,8 +70,8 @@ def half_plane_on(
     window: Window | None,
     stages: Stages,
     fields: bool = True,
-) -> Level:
-    """The half-plane on any pressure elements.
+) -> dict[float, Level]:
+    """The half-plane on any pressure elements, by friction coefficient.
 
     friction_dundurs  mu beta by which sliding traction moves the surfaces; 0 leaves it out
     frictions         coefficients that stresses are computed for"""
@@ -90,10 +91,11 @@ def half_plane_on(
             expected_seconds=expected_with(problem, grid.pitch, window).seconds,
         )
     if window is None:
-        return replace(level, peak_memory=peak_memory())
+        return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
     with stages.stage("stresses", "half-plane: stresses"):
         stresses = _stresses(problem, frictions, level, window, fields)
-    return replace(level, stresses=stresses, peak_memory=peak_memory())
+    memory = peak_memory()
+    return {s.friction: replace(level, stress=s, peak_memory=memory) for s in stresses}
 
 
 def _stresses(

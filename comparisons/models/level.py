@@ -1,4 +1,4 @@
-"""One model's solution on one level of refinement, as data that both models fill in."""
+"""One model's solution on one level of refinement, as data that every model fills in."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -175,14 +175,15 @@ class RecoverableField:
 
 @dataclass(frozen=True)
 class Level:
-    """One model on pressure elements of one pitch."""
+    """One model at one friction coefficient, on pressure elements of one pitch. Levels of several
+    coefficients that share a contact share its arrays."""
 
     grid: HatGrid
     solution: ContactSolution
     # (n,) [m] of the rough body's surface, mean of each hat; into the body, from the model's datum
     displacement: np.ndarray
     patches: np.ndarray  # (k, 2) [m] contact patches
-    seconds: dict[str, float]  # by stage
+    seconds: dict[str, float]  # by stage, of all coefficients that are solved together
     unknowns: int  # of the linear systems behind the compliance
     # bound of the largest pressure's error by crests that the grid does not resolve, relative to it
     unresolved_crest: float = 0.0
@@ -190,28 +191,19 @@ class Level:
     # by the laws that a level is refused or planned by; memory [bytes], 0 without finite elements
     expected_seconds: float = 0.0
     expected_memory: float = 0.0
-    # one a friction coefficient; empty when no field is asked for
-    stresses: tuple[StressResult, ...] = ()
+    stress: StressResult | None = None  # None without [stress]
     mesh: BlockMesh | None = None  # finite elements only: the BlockMesh solved on
     mesh_field: MeshField | RecoverableField | None = None  # finite elements only, with stresses
     # (n,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
-    # where friction moves the contact: this one under the scene's further coefficients
-    further: tuple["Level", ...] = ()
-    friction: float | None = None  # that moves it; None: it is the same under all
-
-    @property
-    def by_friction(self) -> tuple["Level", ...]:
-        """One for each coefficient where friction moves the contact, else this alone."""
-        return self, *self.further
-
-    def under(self, friction: float) -> "Level":
-        """The level under one of the scene's friction coefficients."""
-        return next((level for level in self.further if level.friction == friction), self)
 
     @property
     def converged(self) -> bool:
-        return all(level.solution.converged for level in self.by_friction)
+        return self.solution.converged
+
+    def shares_contact(self, other: "Level") -> bool:
+        """Whether another level, under another friction coefficient, has the same contact."""
+        return self.solution.pressure is other.solution.pressure
 
     @property
     def field_on_mesh(self) -> MeshField | None:
@@ -235,14 +227,10 @@ class Level:
         others = self.mesh_field.others if isinstance(self.mesh_field, MeshField) else {}
         return float(others[STRAIN].max()) if STRAIN in others else None
 
-    def stress(self, friction: float) -> StressResult | None:
-        """Stresses under one friction coefficient, None without [stress]."""
-        return next((s for s in self.under(friction).stresses if s.friction == friction), None)
-
 
 @dataclass(frozen=True)
 class ModelRun:
-    """All levels of one model, half_plane or finite_element, coarse to fine."""
+    """One model at one friction coefficient on its levels, coarse to fine."""
 
     name: str
     levels: tuple[Level, ...]
@@ -259,16 +247,6 @@ class ModelRun:
         """The level on the pressure elements of another model's, or on the nearest."""
         return min(self.levels, key=lambda level: abs(level.grid.pitch - other.grid.pitch))
 
-    def under(self, friction: float) -> "ModelRun":
-        """All levels under one of the scene's friction coefficients."""
-        check = self.far_boundary_check
-        return replace(
-            self,
-            levels=tuple(level.under(friction) for level in self.levels),
-            far_boundary_check=check and check.under(friction),
-            longer_increments=tuple(level.under(friction) for level in self.longer_increments),
-        )
-
     @property
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
@@ -280,15 +258,18 @@ class ModelRun:
         return total
 
 
-def under_each(problem: Problem, model: str, solve: Callable[[Problem], Level]) -> Level:
-    """A model's level, where friction moves its contact solved for one coefficient after the other.
-    Seconds, and what was expected of them, are those of all."""
-    frictions = problem.scene.load.friction
-    if not problem.friction_moves(model) or len(frictions) == 1:
-        return solve(problem)
-    levels = [replace(solve(problem.under(mu)), friction=mu) for mu in frictions]
-    seconds = sum(level.expected_seconds for level in levels)
-    return replace(levels[0], expected_seconds=seconds, further=tuple(levels[1:]))
+def by_friction(
+    problem: Problem, model: str, solve: Callable[[Problem], dict[float, Level]]
+) -> dict[float, Level]:
+    """A model's level at each of the scene's friction coefficients, by `solve` of those that share
+    a contact: of one after the other where friction moves it. What was expected is that of all."""
+    groups = [problem]
+    if problem.friction_moves(model):
+        groups = [problem.under(friction) for friction in problem.scene.load.friction]
+    solved = [solve(group) for group in groups]
+    seconds = sum(next(iter(of_group.values())).expected_seconds for of_group in solved)
+    levels = {friction: level for of_group in solved for friction, level in of_group.items()}
+    return {mu: replace(level, expected_seconds=seconds) for mu, level in levels.items()}
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:

@@ -44,13 +44,14 @@ class RunArrays:
     def of(cls, run: Run) -> Self:
         """Those of a finished run, in full precision."""
         arrays = {} if run.window is None else {"x": run.window.x, "z": run.window.z}
-        for folder, level in levels_by_folder(run).items():
+        for folder, levels in levels_by_folder(run).items():
+            level, *_ = levels.values()
             columns = (level.grid.x, level.solution.pressure, level.solution.gap)
             columns = (*columns, deformed_height(run.problem, level))
             arrays |= {f"{folder}/{n}": c for n, c in zip(CURVES, columns, strict=True)}
-            for stress in level.stresses:
+            for friction, level in levels.items() if run.window is not None else ():
                 for name in COMPONENTS:
-                    arrays[_stress(folder, name, stress.friction)] = getattr(stress.field, name)
+                    arrays[_stress(folder, name, friction)] = getattr(level.stress.field, name)
         return cls(arrays, answers_of(run))
 
     @classmethod
@@ -105,14 +106,15 @@ class RunArrays:
         return own if f"{own}/x" in self.arrays else model
 
 
-def levels_by_folder(run: Run) -> dict[str, Level]:
-    """The finest levels by the folders of their files; those of further friction coefficients,
-    where friction changes the contact, below the first's."""
-    levels: dict[str, Level] = {}
+def levels_by_folder(run: Run) -> dict[str, dict[float, Level]]:
+    """The finest levels that share a contact, by friction, by the folders of their files; those of
+    another contact, where friction changes it, below the first's."""
+    levels: dict[str, dict[float, Level]] = {}
     for friction in run.problem.scene.load.friction:
         for name, level in run.levels(friction).items():
-            if all(level is not known for known in levels.values()):
-                levels[name if name not in levels else _further(name, friction)] = level
+            first = next(iter(levels.get(name, {}).values()), level)
+            folder = name if first.shares_contact(level) else _further(name, friction)
+            levels.setdefault(folder, {})[friction] = level
     return levels
 
 

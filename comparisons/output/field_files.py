@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import StressState
+from comparisons.figures.figure import grouped
 from comparisons.judging.study import Run
 from comparisons.models.half_plane import stresses_at
 from comparisons.models.level import Level
@@ -51,15 +52,15 @@ def scene_text(problem: Problem) -> str:
     return json.dumps(problem.surface.as_dict(problem.scene), ensure_ascii=False, allow_nan=False)
 
 
-def field_of(run: Run, level: Level) -> FieldFile:
-    """Stresses at the points of a model's level, as STRESSES.
+def field_of(run: Run, levels: Mapping[float, Level]) -> FieldFile:
+    """Stresses at the points of a model's levels, by friction, of one contact, as STRESSES.
 
     On a mesh of finite elements also their `displacement`, a vector (n, 3) [m] in the axes of the
     points, zero where the body is held; and `half_plane_` and `difference_` COMPONENTS: the
     half-plane's stresses at the same points, and these less the finite elements', as rounded.
     Of several friction coefficients that share a contact each array has its own in the name. Where
     the body yields there is also what flow leaves behind when the roller is gone."""
-    scene = run.problem.scene
+    scene, (level, *_) = run.problem.scene, levels.values()
     nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh
     if on_mesh is not None:
@@ -69,9 +70,10 @@ def field_of(run: Run, level: Level) -> FieldFile:
     else:
         x, z = np.meshgrid(run.window.x, run.window.z)
         plane = np.column_stack([x.ravel(), z.ravel()])
+        fields = {friction: of.stress.field for friction, of in levels.items()}
         stresses = {
-            s.friction: StressState(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
-            for s in level.stresses
+            friction: StressState(field.sx.ravel(), field.sz.ravel(), field.txz.ravel())
+            for friction, field in fields.items()
         }
         rows, columns = x.shape
         corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
@@ -80,9 +82,8 @@ def field_of(run: Run, level: Level) -> FieldFile:
     if on_mesh is not None:
         arrays |= _named(on_mesh.displacement, lambda u: {"displacement": _in_space(u)})
         arrays = _rounded(arrays | on_mesh.others)
-        half_plane = run.runs.get("half_plane")
-        if half_plane is not None:
-            arrays |= _beside(run.problem, half_plane.beside(level), plane, stresses, arrays)
+        if "half_plane" in run.runs:
+            arrays |= _beside(run, level, plane, stresses, arrays)
     arrays = {name: values.astype(np.float32) for name, values in arrays.items()}
     points = _in_space(plane).astype(np.float32)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
@@ -127,19 +128,19 @@ def _components(s: StressState, nu: float | np.ndarray) -> dict[str, np.ndarray]
 
 
 def _beside(
-    problem: Problem,
-    half_plane: Level,
+    run: Run,
+    level: Level,
     plane: np.ndarray,
     stresses: Mapping[float, StressState],
     on_mesh: Mapping[str, np.ndarray],
 ) -> dict[str, np.ndarray]:
     """The half-plane's stresses at points (n, 2), and these less what is `on_mesh`; NaN above the
     mean line."""
-    at_points: dict[float, StressState] = {}
-    for contact in half_plane.by_friction:
-        frictions = tuple(mu for mu in stresses if contact.friction in (None, mu))
-        if frictions:
-            at_points |= stresses_at(problem, contact, frictions, *plane.T)
+    problem, at_points = run.problem, {}
+    cases = [case for case in run.solved.cases if case.friction in stresses]
+    of_half_plane = {case.friction: case.runs["half_plane"].beside(level) for case in cases}
+    for same in grouped(of_half_plane, lambda mu: id(of_half_plane[mu].solution.pressure)):
+        at_points |= stresses_at(problem, of_half_plane[same[0]], tuple(same), *plane.T)
     nu = problem.scene.body.poissons_ratio
     arrays = _rounded(_named(at_points, lambda s: _components(s, nu)))
     return {

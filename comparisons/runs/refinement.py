@@ -27,6 +27,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from fem.solver.mumps import FemError
 
+Levels = dict[float, Level]  # one model's on one pitch, by friction coefficient
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 SHORT = 0.5  # seconds of a level that this process solves itself while others have begun
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
@@ -120,8 +121,8 @@ class _LevelTask:
         how = self.plan, self.pitch, patches, self.window
         return expected_level(self.name, self.problem, *how)
 
-    def solve(self, here: Here) -> Level:
-        """Imports what this model needs alone."""
+    def solve(self, here: Here) -> dict[float, Level]:
+        """By friction coefficient. Imports what this model needs alone."""
         words = f"level {self.number}"
         if self.half_block:
             words = "far boundary at half the distance"
@@ -158,7 +159,7 @@ class _Levels:
         self.checks = [check(half_block=True)] if self.plan.domain_check else []
         if self.plan.increments_check:
             self.checks += [check(times=times) for times in LONGER]
-        self.levels: dict[str, list[Level]] = {name: [] for name in self.plan.models}
+        self.levels: dict[str, list[Levels]] = {name: [] for name in self.plan.models}
         self.patches = np.array([self.problem.extent])  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
         self.machine = machine_memory()
@@ -174,7 +175,8 @@ class _Levels:
                 if task.number == 1 or not self.is_short(task, cost):  # those: beside the others
                     self.add(task)
             self.wait(1, ["half_plane"])
-            self.patches = self.levels["half_plane"][0].patches
+            first, *_ = self.levels["half_plane"][0].values()
+            self.patches = first.patches
             if self.problem.scene.finite_element.plastic:
                 self.patches = flowing_contact(self.problem)
         if "finite_element" in self.levels:
@@ -228,20 +230,27 @@ class _Levels:
     def solved(self, number: int, models: Iterable[str]) -> Solved:
         """The scene with so many levels of the models."""
         self.wait(number, models)
-        runs = {name: ModelRun(name, tuple(self.levels[name][:number])) for name in models}
-        return replace(self.scene, runs=runs)
+        cases = []
+        for case in self.scene.cases:
+            levels = {n: [of[case.friction] for of in self.levels[n][:number]] for n in models}
+            runs = {name: ModelRun(name, tuple(of_model)) for name, of_model in levels.items()}
+            cases.append(replace(case, runs=runs))
+        return replace(self.scene, cases=tuple(cases))
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again, runs = [*filter(None, map(self._check, self.checks))], dict(solved.runs)
-        if again:
-            far = again.pop(0) if self.plan.domain_check else None
-            runs["finite_element"] = replace(
-                runs["finite_element"], far_boundary_check=far, longer_increments=tuple(again)
-            )
-        return replace(solved, runs=runs, refinement=why)
+        again, cases = [*filter(None, map(self._check, self.checks))], []
+        for case in solved.cases:
+            runs, mine = dict(case.runs), [levels[case.friction] for levels in again]
+            if mine:
+                far = mine.pop(0) if self.plan.domain_check else None
+                runs["finite_element"] = replace(
+                    runs["finite_element"], far_boundary_check=far, longer_increments=tuple(mine)
+                )
+            cases.append(replace(case, runs=runs))
+        return replace(solved, cases=tuple(cases), refinement=why)
 
-    def _check(self, task: _LevelTask) -> Level | None:
+    def _check(self, task: _LevelTask) -> Levels | None:
         """A check; None of the longest increments, which Newton's method may not bear."""
         try:
             return self.tasks.result(task.key)
@@ -268,11 +277,9 @@ class _Levels:
 def unresolved(solved: Solved) -> dict[str, float]:
     """Judged quantities whose discretisation uncertainty is above its share of the tolerance, with
     the largest of any friction coefficient."""
-    problem, largest = solved.problem, {}
-    tolerance = problem.scene.tolerances
-    for friction in problem.scene.load.friction:
-        sizes = discretisations(solved.runs, problem, friction)
-        for name, size in sizes.items():
+    tolerance, largest = solved.problem.scene.tolerances, {}
+    for case in solved.cases:
+        for name, size in discretisations(case).items():
             if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
                 largest[name] = max(size, largest.get(name, 0.0))
     return largest

@@ -253,8 +253,8 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
 def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
     """Of pressures, of the run-in surface, and of the files of answers."""
     hashes: dict[str, object] = {
-        f"{name}_pressure": digest(*(lv.solution.pressure for lv in run.finest.by_friction))
-        for name, run in solved.runs.items()
+        f"{name}_pressure": digest(*(level.solution.pressure for _, level in solved.contacts(name)))
+        for name in solved.runs
     }
     run_in = solved.problem.surface.run_in
     if run_in is not None:

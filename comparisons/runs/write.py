@@ -32,7 +32,8 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
     beside = partial(import_module, PAGE), load_matplotlib
     with published(outcome.directory) as folder, tasks_of_copies(outcome, beside) as tasks:
         levels = levels_by_folder(outcome)
-        first, *others = sorted(levels, key=lambda name: levels[name].mesh is None)  # longest first
+        meshed = {name: any(one.mesh for one in of.values()) for name, of in levels.items()}
+        first, *others = sorted(levels, key=lambda name: not meshed[name])  # longest first
         for name in levels:
             (folder / name).mkdir(parents=True, exist_ok=True)
         # two lots: nobody hands out a third while this process writes
@@ -69,10 +70,11 @@ def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:
 def _write_level(here: Here, folder: Path, name: str) -> None:
     """The files of a model's level."""
     outcome, folder = here.shared, folder / name
-    level = levels_by_folder(outcome)[name]
+    levels = levels_by_folder(outcome)[name]
+    level, *_ = levels.values()
     write_contact(folder / "contact.csv", outcome, level)
     if outcome.window is not None:
-        write_field(folder / "stress.vtu", field_of(outcome, level))
+        write_field(folder / "stress.vtu", field_of(outcome, levels))
     if name.split("/")[0] in outcome.runs and level.mesh is not None:
         write_mesh(folder / "mesh.msh", outcome, level.mesh)
 

@@ -24,8 +24,9 @@ QUANTITIES = {
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """A residual is as sure as what converged is allowed to leave of it."""
     figures, sure = [], Uncertainty({"iteration": KKT_TOLERANCE})
-    for name, run in solved.runs.items():
-        residuals = [asdict(level.solution.residuals) for level in run.finest.by_friction]
+    for name in solved.runs:
+        finest = (case.runs[name].finest for case in solved.cases)
+        residuals = [asdict(level.solution.residuals) for level in finest]
         for quantity in residuals[0]:
             value = max(row[quantity] for row in residuals)
             figures.append(Figure(NAME, quantity, name, value, uncertainty=sure))

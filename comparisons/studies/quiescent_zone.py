@@ -39,7 +39,7 @@ from comparisons.figures.figure import Column, Figure, Findings, Series, Stateme
 from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.judging.contact import by_repetition
-from comparisons.judging.study import WHY_NOT, Run, Solved, Study
+from comparisons.judging.study import WHY_NOT, Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -128,21 +128,17 @@ def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 
         return np.sqrt(np.sum(np.nan_to_num(square) * inside, axis=1) / np.sum(inside, axis=1))
 
 
-def zone_of(
-    problem: Problem, level: Level, window: Window, friction: float, every: int = 1
-) -> ShearDip:
+def zone_of(problem: Problem, level: Level, window: Window, every: int = 1) -> ShearDip:
     """Of one level, read on every n-th row and column of the window; Pa and m."""
-    tau1 = level.stress(friction).field.tau1[::every]
+    tau1 = level.stress.field.tau1[::every]
     shear = mean_shear(problem, window, tau1, every)
     return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
 
 
-def asperity_rows(
-    problem: Problem, level: Level, window: Window, friction: float
-) -> list[dict[str, object]]:
+def asperity_rows(problem: Problem, level: Level, window: Window) -> list[dict[str, object]]:
     """By each asperity that touches at |x| <= a, its zone as wide as it: place and length of its
     contact [m], and the dip of the largest shear below it."""
-    a, tau1 = problem.hertz.half_width, level.stress(friction).field.tau1
+    a, tau1 = problem.hertz.half_width, level.stress.field.tau1
     rows, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
     for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
         columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
@@ -158,19 +154,16 @@ def asperity_rows(
     return rows
 
 
-def zone_figures(
-    problem: Problem, run: ModelRun, window: Window, friction: float
-) -> tuple[tuple[Figure, ...], str]:
+def zone_figures(case: Case, run: ModelRun, window: Window) -> tuple[tuple[Figure, ...], str]:
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
 
     def read(level: Level) -> dict[str, float]:
-        dip = zone_of(problem, level, window, friction)
+        dip = zone_of(case.problem, level, window)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
-    run = run.under(friction)
     levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
-    dip, coarse = (zone_of(problem, run.finest, window, friction, every) for every in (1, 2))
+    dip, coarse = (zone_of(case.problem, run.finest, window, every) for every in (1, 2))
     figures = []
     for name in QUANTITIES:
         values, value = tuple(level[name] for level in levels), getattr(dip, name)
@@ -180,7 +173,7 @@ def zone_figures(
         if isfinite(value):
             scale = abs(value) or 1.0
             unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
-            named = NAME, name, run.name, value, {"friction": friction}
+            named = NAME, name, run.name, value, case.at
             figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
         if name == "ratio":
             is_unclear = abs(value - QUIET) <= size
@@ -201,17 +194,16 @@ def needs(solved: Solved) -> str | None:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Of every model at every friction coefficient: the dip, and those below single asperities."""
-    problem, window, figures, series, states = solved.problem, solved.window, [], [], []
+    window, figures, series, states = solved.window, [], [], []
     units = {"x": "m", "length": "m", "level": "", "state": ""}.items()
-    for name, run in solved.runs.items():
-        for friction in problem.scene.load.friction:
-            at = {"friction": friction}
-            of_zone, state = zone_figures(problem, run, window, friction)
+    for name in solved.runs:
+        for case in solved.cases:
+            of_zone, state = zone_figures(case, case.runs[name], window)
             figures += of_zone
-            states.append(Statement(STATE, state, name, at))
-            rows = asperity_rows(problem, run.finest.under(friction), window, friction)
+            states.append(Statement(STATE, state, name, case.at))
+            rows = asperity_rows(case.problem, case.runs[name].finest, window)
             columns = {key: Column(tuple(row[key] for row in rows), unit) for key, unit in units}
-            series.append(Series(ASPERITIES, columns, name, at))
+            series.append(Series(ASPERITIES, columns, name, case.at))
     return Findings(tuple(figures), tuple(series), tuple(states))
 
 

@@ -31,7 +31,7 @@ from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.judging.study import Run, Solved, studied
+from comparisons.judging.study import Case, Run, Solved, studied
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -75,18 +75,15 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
     return BlockMesh(points, triangles, np.zeros_like(points), spec)
 
 
-def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:
+def stress_of(problem: Problem, modulus: float, window: Window, friction: float) -> StressResult:
     hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller.radius, modulus)
-    results = []
-    for friction in problem.scene.load.friction:
-        known = hertz_extremes(hertz, friction)
-        txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
-        field = hertz_stress(hertz, window.x, window.z[:, None], friction)
-        deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
-        extremes = {"tau1": known.tau1, "txz": txz, "von_mises": deepest}
-        maxima = {name: by_asperity(problem, extremes[name]) for name in ("tau1", "txz")}
-        results.append(StressResult(friction, extremes, maxima, field))
-    return tuple(results)
+    known = hertz_extremes(hertz, friction)
+    txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
+    field = hertz_stress(hertz, window.x, window.z[:, None], friction)
+    deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
+    extremes = {"tau1": known.tau1, "txz": txz, "von_mises": deepest}
+    maxima = {name: by_asperity(problem, extremes[name]) for name in ("tau1", "txz")}
+    return StressResult(friction, extremes, maxima, field)
 
 
 def by_asperity(problem: Problem, largest: Extremum) -> np.ndarray:
@@ -97,7 +94,10 @@ def by_asperity(problem: Problem, largest: Extremum) -> np.ndarray:
     return maxima
 
 
-def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -> Level:
+def levels_of(
+    problem: Problem, name: str, pitch: float, window: Window | None
+) -> dict[float, Level]:
+    """By friction coefficient, of one contact."""
     modulus = problem.modulus * (STIFFER if name == "finite_element" else 1.0)
     grid = problem.grid(pitch)
     operator = HalfPlane(grid.count, pitch, modulus)
@@ -113,7 +113,7 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
         moved = dict.fromkeys(problem.scene.load.friction, 0.001 * mesh.points[:, ::-1])
         nu = np.full(len(mesh.points), 0.3)
         mesh_field = MeshField(mesh.points, mesh.triangles, nodal, moved, nu)
-    return Level(
+    level = Level(
         grid=grid,
         solution=solution,
         displacement=0.5 * operator.apply(solution.pressure) / grid.weights,
@@ -122,10 +122,13 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
         if mesh is None
         else {"mesh": 1.25, "assembly": 0.375, "factorisation": 1.125, "contact": 0.25},
         unknowns=grid.count if mesh is None else 2 * len(mesh.points),
-        stresses=() if window is None else stresses(problem, modulus, window),
         mesh=mesh,
         mesh_field=mesh_field,
     )
+    if window is None:
+        return dict.fromkeys(problem.scene.load.friction, level)
+    stresses = (stress_of(problem, modulus, window, mu) for mu in problem.scene.load.friction)
+    return {stress.friction: replace(level, stress=stress) for stress in stresses}
 
 
 def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
@@ -142,23 +145,28 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
             np.linspace(0.0, 1.0, rows) ** 2 * half_width,
             (-1.5 * half_width, 1.5 * half_width),
         )
-    runs = {
-        name: ModelRun(
-            name, tuple(level_of(problem, name, pitch, window) for pitch in problem.pitches)
-        )
+    levels = {
+        name: [levels_of(problem, name, pitch, window) for pitch in problem.pitches]
         for name in models
     }
     # there are no finite elements to show effects, and no other contact that friction makes
     plan = replace(plan, effects=False, coupling=False)
     resolved_all = "every judged quantity is resolved"
-    solved = Solved(problem, plan, window, runs, resolved_all)
+    cases = []
+    for mu in problem.scene.load.friction:
+        runs = {n: ModelRun(n, tuple(level[mu] for level in of)) for n, of in levels.items()}
+        cases.append(Case(problem.under(mu), runs))
+    solved = Solved(problem, plan, window, tuple(cases), resolved_all)
     sizes = dict.fromkeys(QUANTITIES, SAMPLING)
     with patch("comparisons.judging.effects.sampling.sampling_changes", lambda *_: sizes):
         findings = studied(STUDIES, solved, {}, Tasks())
     hashes = {
-        f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
+        f"{name}_pressure": digest(run.finest.solution.pressure)
+        for name, run in solved.runs.items()
     }
-    return Run(solved, findings, record_of(problem, runs, hashes), Path("results/made"), STUDIES)
+    return Run(
+        solved, findings, record_of(problem, solved.runs, hashes), Path("results/made"), STUDIES
+    )
 
 
 @pytest.fixture(scope="session")

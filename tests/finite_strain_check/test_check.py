@@ -35,7 +35,7 @@ def by_the_project(edges: int, **tables: dict):
     finite = {"deformation": "finite", "roller_shape": "circle"}
     scene = problem({"roller": roller, "finite_element": finite, "stress": {}} | tables)
     level = finite_elements(scene, scene.hertz.half_width / edges, fields=True)
-    return scene, level, level.stresses[0]
+    return scene, level, level.stress
 
 
 @cache

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -99,7 +100,9 @@ def first_lines(scene: Scene) -> tuple[str, str]:
     from comparisons.models.posing import problem_of
 
     problem = problem_of(scene)
-    return early_lines(problem, half_plane_level(problem, problem.pitches[0], None, Stages()))
+    levels = half_plane_level(problem, problem.pitches[0], None, Stages())
+    friction, level = max(levels.items(), key=itemgetter(0))
+    return early_lines(problem.under(friction), level)
 
 
 def _length(value: float) -> str:

@@ -15,6 +15,7 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.comparison import differences_of
 from comparisons.judging.contact import values_of
+from comparisons.judging.study import Case
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
@@ -42,14 +43,14 @@ def solve_point(point: Point) -> dict:
     problem = problem_of(point.scene)
     plan = make_plan(problem, MODELS)
     window, friction = window_of(problem) if plan.stress else None, problem.largest_friction
-    for runs in _refined(problem, plan, window):
+    for runs in _refined(problem, plan, window, friction):
         for run in runs.values():
             if not run.finest.converged:
                 return failed(f"{run.name}: the contact did not converge")
-        errors = differences_of(*runs.values(), problem, friction)
+        errors = differences_of(*runs.values(), Case(problem.under(friction), runs))
         if not is_open(errors[point.asked]):
             break
-    values = {name: values_of(run.finest, problem, friction) for name, run in runs.items()}
+    values = {name: values_of(run.finest, problem) for name, run in runs.items()}
     finest, quantities = runs["finite_element"].finest, {}
     for name, error in errors.items():
         unsure, of_models = error.numerical, {m: _significant(values[m][name]) for m in MODELS}
@@ -77,7 +78,9 @@ def _significant(value: float) -> float:
     return float(f"{value:.{FIGURES}g}")
 
 
-def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Runs]:
+def _refined(
+    problem: Problem, plan: Plan, window: Window | None, friction: float
+) -> Iterator[Runs]:
     """Both models on the first levels, then with one more each time, while there may be."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import finite_element_level
@@ -85,9 +88,8 @@ def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Ru
 
     def solved(pitch: float, half_block: bool = False) -> Level:
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
-        return finite_element_level(
-            problem, plan, refinement, window, Stages(), body_cache, fields=False
-        )
+        how = refinement, window, Stages(), body_cache
+        return finite_element_level(problem, plan, *how, fields=False)[friction]
 
     @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh
     def bodies(pitch: float) -> BodyCache:
@@ -105,7 +107,8 @@ def _refined(problem: Problem, plan: Plan, window: Window | None) -> Iterator[Ru
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        half_plane.append(half_plane_level(problem, pitch, window, Stages(), fields=False))
+        levels = half_plane_level(problem, pitch, window, Stages(), fields=False)
+        half_plane.append(levels[friction])
         if number >= least:
             yield {
                 "half_plane": ModelRun("half_plane", tuple(half_plane)),

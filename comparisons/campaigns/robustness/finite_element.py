@@ -134,7 +134,8 @@ def solved(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
     plan = make_plan(problem, ("finite_element",))
     pitch = problem.pitches[0] / 2.0**refinement
     window = None if problem.scene.stress is None else window_of(problem)
-    return problem, finite_element_level(problem, plan, Refinement(pitch), window, Stages())
+    level, *_ = finite_element_level(problem, plan, Refinement(pitch), window, Stages()).values()
+    return problem, level
 
 
 @lru_cache

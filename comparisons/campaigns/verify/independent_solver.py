@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.campaigns.cases import Case, CaseFigures, bounded
+from comparisons.campaigns.cases import CaseFigures, Trial, bounded
 from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -19,9 +19,9 @@ AGREE = 1e-6  # relative, in pressure and in load
 SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
 
 
-def independent_cases() -> list[Case]:
+def independent_cases() -> list[Trial]:
     model, group = "finite_element", "independent solver"
-    return [Case(group, n, model, partial(independent_figures, n)) for n in SCENES]
+    return [Trial(group, n, model, partial(independent_figures, n)) for n in SCENES]
 
 
 def independent_figures(name: str) -> CaseFigures:
@@ -37,7 +37,8 @@ def independent_figures(name: str) -> CaseFigures:
     problem = problem_of(scene)
     plan = make_plan(problem, ("finite_element",))
     refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
-    level = finite_element_level(problem, plan, refinement, None, Stages(), body_cache=body_cache)
+    how = problem, plan, refinement, None, Stages(), body_cache
+    level, *_ = finite_element_level(*how).values()
     grid = level.grid
     # the bodies that the level was solved on, by the patches that its mesh is refined at
     bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), body_cache)
@@ -53,7 +54,7 @@ def independent_figures(name: str) -> CaseFigures:
     pressure = level.solution.pressure
     difference = float(np.abs(pressure - other.pressure).max() / pressure.max())
     approach = other.approach - problem.first_touch
-    again = finite_element_level(problem, plan, refinement, None, Stages(), body_cache, approach)
+    again, *_ = finite_element_level(*how, approach).values()
     loads = float(abs(grid.weights @ again.solution.pressure - load) / load)
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from analytic.material import Material
-from comparisons.campaigns.cases import Case, CaseFigures, bounded, order_figure
+from comparisons.campaigns.cases import CaseFigures, Trial, bounded, order_figure
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes
@@ -154,9 +154,9 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
     return errors(body, body.solve(load), exact)
 
 
-def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[Case]:
+def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[Trial]:
     model, group, solve = "finite_element", "manufactured", manufactured_figures
-    return [Case(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
+    return [Trial(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
 
 
 def manufactured_figures(kind: str, degree: int) -> CaseFigures:

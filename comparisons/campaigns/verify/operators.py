@@ -18,7 +18,7 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
-from comparisons.campaigns.cases import Case, CaseFigures
+from comparisons.campaigns.cases import CaseFigures, Trial
 from comparisons.campaigns.verify.coverage import compared
 from comparisons.campaigns.verify.scenes import (
     LAYER_MODULUS,
@@ -68,10 +68,10 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
 
 def operator_cases(
     contacts: Sequence[OperatorContact], ends: tuple[float, float] = RESOLUTIONS
-) -> list[Case]:
+) -> list[Trial]:
     """Each contact with its own number of elements on the third level, between the ends."""
     return [
-        Case(
+        Trial(
             contact.kind,
             f"{contact.name}, {elements:g} elements",
             contact.model,

@@ -18,7 +18,7 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
-from comparisons.campaigns.cases import Case
+from comparisons.campaigns.cases import Trial
 from comparisons.campaigns.verify.operators import OperatorContact, operator_cases
 from comparisons.campaigns.verify.scenes import (
     LINEAR,
@@ -65,7 +65,7 @@ def rough_contact(
     return ManufacturedContact(patches, material, roller, layer, friction)
 
 
-def rough_cases() -> list[Case]:
+def rough_cases() -> list[Trial]:
     return [*scene_cases(rough_scenes()), *operator_cases(rough_operator_contacts(), ELEMENTS)]
 
 

@@ -17,8 +17,8 @@ import numpy as np
 from comparisons.campaigns.cases import (
     MODEL_LABELS,
     Campaign,
-    Case,
     Row,
+    Trial,
     carry_out,
     check_places,
     rows_table,
@@ -111,7 +111,7 @@ def _cells(group: Coverage) -> tuple[str, ...]:
     return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
 
 
-def everything() -> list[Case]:
+def everything() -> list[Trial]:
     from comparisons.campaigns.verify.independent_solver import independent_cases
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
 
@@ -124,7 +124,7 @@ def verify(
     out: Path,
     junit: Path | None = None,
     callback: ProgressCallback = no_progress,
-    cases: Sequence[Case] | None = None,
+    cases: Sequence[Trial] | None = None,
     fewest: tuple[int, int] = (FEWEST, FEWEST_ROUGH),
 ) -> Verification:
     """Verify; leave verify.json in `out`, JUnit XML in the file `junit`. Raises InputError where

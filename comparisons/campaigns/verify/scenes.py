@@ -26,7 +26,7 @@ from analytic.exact.cases import (
 )
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
-from comparisons.campaigns.cases import Case
+from comparisons.campaigns.cases import Trial
 from comparisons.campaigns.verify.coverage import EXACT, PRESSURE, compared
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import Tasks
@@ -219,9 +219,9 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
     return ExactScene(name, LAYER_SOURCE, "layer", tables, exact, models=("finite_element",))
 
 
-def scene_cases(scenes: Iterable[ExactScene]) -> list[Case]:
+def scene_cases(scenes: Iterable[ExactScene]) -> list[Trial]:
     return [
-        Case(scene.kind, scene.name, model, partial(scene_figures, scene, model))
+        Trial(scene.kind, scene.name, model, partial(scene_figures, scene, model))
         for scene in scenes
         for model in scene.models
     ]
@@ -273,8 +273,8 @@ def smooth_half_plane(problem: Problem) -> dict[str, float]:
 def fine_half_plane(problem: Problem) -> dict[str, float]:
     """Figures of the half-plane on pressure elements FINER times as small as the third level's."""
     pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.load.friction
-    level = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
-    return values_of(level, problem, friction)
+    levels = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
+    return values_of(levels[friction], problem)
 
 
 def elastic_table(material: Material | None) -> dict:

@@ -207,13 +207,13 @@ class LawSpread:
     scatter: float = 0.0  # of measured constants, for 95 %
 
 
-def trust(problem: Problem, whole: Level, friction: float) -> str | None:
+def trust(problem: Problem, whole: Level) -> str | None:
     """Where Murnaghan's series is strained beyond half of what it bears, in a sentence without its
     full stop; None where it is not, or no body has it.
 
     Its strains are taken for those of a linear body under the largest pressure and the largest
     principal shear; it bears them where the acoustic tensor stays positive."""
-    peak, stress = int(np.argmax(whole.solution.pressure)), whole.stress(friction)
+    peak, stress = int(np.argmax(whole.solution.pressure)), whole.stress
     pressure = float(whole.solution.pressure[peak])
     tau1 = OF_THE_PEAK * pressure if stress is None else stress.extremes["tau1"].value
     for name in BODIES:

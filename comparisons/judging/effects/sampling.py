@@ -5,7 +5,6 @@ estimates what samples between them would change. The half-plane is enough, for 
 one curve. A measured trace with few samples on the contact says nothing of the roughness there, and
 how little they change no more: then the effect has no bound."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
 
@@ -16,6 +15,7 @@ from comparisons.figures.figure import SHARED
 from comparisons.judging.comparison import relative_differences
 from comparisons.judging.effects.estimates import Sizes
 from comparisons.judging.model_error.quantities_of_interest import quantities_of
+from comparisons.judging.study import Solved
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
@@ -26,13 +26,10 @@ FEWEST = 20  # samples of a measured trace on the contact
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 
 
-def sampling_estimate(
-    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> tuple[Sizes, str]:
-    """By quantity, what the sampling may change, and what is said of the surface between samples.
-
-    levels  as of `sampling_changes`"""
-    sizes, info = sampling_changes(problem, window, levels, tasks), problem.surface.info
+def sampling_estimate(solved: Solved, tasks: Tasks) -> tuple[Sizes, str]:
+    """By quantity, what the sampling may change, and words on the surface between samples."""
+    sizes, info = sampling_changes(solved, tasks), solved.problem.surface.info
+    levels = solved.runs["half_plane"].levels
     samples, spacing = levels[-1].contact_length / info.spacing, with_unit(info.spacing, "m", 3)
     if info.path is not None and samples < FEWEST:
         count = f"{significant(samples, 2)} samples, {spacing} apart"
@@ -41,27 +38,24 @@ def sampling_estimate(
     return sizes, f"by what every other sample changes; they are {spacing} apart"
 
 
-def sampling_changes(
-    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> Sizes:
-    """By quantity, the largest relative change from half the samples.
-
-    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
-    level, sizes = levels[:SAMPLED][-1], {}
-    for first, key in enumerate(announce_sampling(problem, window, levels, tasks)):
-        thinned, other = _thinned(problem, first), tasks.result(key)
-        for friction in problem.scene.load.friction:
-            whole = quantities_of(level, problem, friction).largest()
-            half = quantities_of(other, thinned, friction).largest()
+def sampling_changes(solved: Solved, tasks: Tasks) -> Sizes:
+    """By quantity, the largest relative change from half the samples, of the half-plane's third
+    level, or the last before it."""
+    sizes: Sizes = {}
+    for first, key in enumerate(announce_sampling(solved, tasks)):
+        others = tasks.result(key)
+        for case in solved.cases:
+            level, problem = case.runs["half_plane"].levels[:SAMPLED][-1], case.problem
+            whole = quantities_of(level, problem).largest()
+            half = quantities_of(others[case.friction], _thinned(problem, first)).largest()
             for name, size in relative_differences(half, whole, problem).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
     return sizes
 
 
-def announce_sampling(
-    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
-) -> list[str]:
+def announce_sampling(solved: Solved, tasks: Tasks) -> list[str]:
     """The keys of the tasks that solve from the even and from the odd samples."""
+    problem, window, levels = solved.problem, solved.window, solved.runs["half_plane"].levels
     if problem.scene.profile is None:
         return []
     number = min(SAMPLED, len(levels))
@@ -75,7 +69,7 @@ def announce_sampling(
 
 def _sampled(
     here: Here, problem: Problem, first: int, pitch: float, window: Window | None
-) -> Level:
+) -> dict[float, Level]:
     here.callback("error budget: sampling of the trace")
     thinned = _thinned(problem, first)
     return half_plane_level(thinned, pitch, window, Stages(), fields=False)

@@ -132,8 +132,8 @@ def _asked(solved: Solved) -> Iterator[tuple[Method, float, str]]:
 
 def level_by(
     here: Here, method: Method, problem: Problem, pitch: float, window: Window | None
-) -> Level:
-    """A level by a method, without its fields."""
+) -> dict[float, Level]:
+    """A level by a method, by friction coefficient, without its fields."""
     stages = Stages(lambda stage: here.callback(f"{stage}, {method.name}"))
     if method.carried:
         how = problem.scene.load.friction, pitch, window
@@ -147,36 +147,47 @@ def level_by(
 
     posed = method.posed(problem)
     plan = make_plan(posed, (method.kind,))
-    level = finite_element_level(posed, plan, Refinement(pitch), window, stages, fields=False)
-    return replace(level, mesh=None)
+    levels = finite_element_level(posed, plan, Refinement(pitch), window, stages, fields=False)
+    return {friction: replace(level, mesh=None) for friction, level in levels.items()}
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    levels = [(LABELS[name], name, lv) for name, run in solved.runs.items() for lv in run.levels]
+    levels = []
+    for name, run in solved.runs.items():
+        for number in range(len(run.levels)):
+            same = {case.friction: case.runs[name].levels[number] for case in solved.cases}
+            levels.append((LABELS[name], name, same))
     said = []
     for method, pitch, key in _asked(solved) if solved.all_methods else ():
         try:
-            level = tasks.result(key)
-            why = "" if level.converged else "did not converge"
+            by_friction = tasks.result(key)
+            converged = all(level.converged for level in by_friction.values())
+            why = "" if converged else "did not converge"
         except Exception as error:  # costs its row alone
             why = one_line(str(error) if isinstance(error, EXPECTED) else defect(error))
         if why:
             left = f"{method.name} at {with_unit(pitch, 'm', 3)}: {why}"
             said.append(Statement("left out", left))
         else:
-            levels.append((method.name, method.kind, level))
+            levels.append((method.name, method.kind, by_friction))
     known = _references(solved, before)
     budget = before[MODEL_ERROR].data if MODEL_ERROR in before else None
     beside = budget is not None and bool(budget.selection.added)  # the whole is another model
-    reference = next(reversed(solved.runs.values())).finest
+    frictions = [case.friction for case in solved.cases]
+    last = next(reversed(solved.runs))
+    reference = [case.runs[last].finest for case in solved.cases]
     if beside:
-        reference = max(budget.wholes.items())[1]
-        levels.append((LABELS[WHOLE], "finite_element", reference))
-    rows = []
-    for name, kind, level in sorted(levels, key=lambda row: (row[0], -row[2].grid.pitch)):
+        reference = budget.wholes
+        whole = dict(zip(frictions, reference, strict=True))
+        levels.append((LABELS[WHOLE], "finite_element", whole))
+    largest, rows = max(frictions), []
+    levels.sort(key=lambda row: (row[0], -row[2][largest].grid.pitch))
+    for name, kind, by_friction in levels:
+        level = by_friction[largest]
         size = level.grid.pitch, level.grid.count, level.unknowns
         took = sum(level.seconds.values()), level.peak_memory
-        errors = {} if level is reference else _errors(solved.problem, level, known)
+        itself = level is reference[frictions.index(largest)]
+        errors = {} if itself else _errors(solved, by_friction, known)
         row = dict(zip(COLUMNS, (name, kind, *size, *took), strict=True))
         rows.append(row | {quantity: errors.get(quantity) for quantity in known})
     units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
@@ -227,8 +238,10 @@ def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Ref
     return known
 
 
-def _errors(problem: Problem, level: Level, known: Mapping[str, Reference]) -> dict[str, float]:
-    found = [contact.values_of(level, problem, mu) for mu in problem.scene.load.friction]
+def _errors(
+    solved: Solved, levels: Mapping[float, Level], known: Mapping[str, Reference]
+) -> dict[str, float]:
+    found = [contact.values_of(levels[case.friction], case.problem) for case in solved.cases]
     errors = {}
     for name, best in known.items():
         if all(name in values for values in found):

@@ -113,8 +113,9 @@ def operator_level(
     frictions: tuple[float, ...],
     pitch: float,
     window: Window | None,
-) -> Level:
-    """Solved on pressure elements of a pitch [m], with the largest stresses in the window.
+) -> dict[float, Level]:
+    """By friction coefficient, on pressure elements of a pitch [m], with the largest stresses in
+    the window.
 
     held       what the operator carries, or what the deformed surface has
     frictions  coefficients whose pressures are the same"""
@@ -144,11 +145,12 @@ def operator_level(
             seconds=stages.seconds,
             unknowns=grid.count,
         )
-    if window is not None:
-        with stages.stage("stresses"):
-            stresses = tuple(_stresses(problem, level, window, frictions))
-        level = replace(level, stresses=stresses)
-    return replace(level, peak_memory=peak_memory())
+    if window is None:
+        return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
+    with stages.stage("stresses"):
+        stresses = tuple(_stresses(problem, level, window, frictions))
+    memory = peak_memory()
+    return {s.friction: replace(level, stress=s, peak_memory=memory) for s in stresses}
 
 
 def operator_of(problem: Problem, grid: HatGrid, coupling: float) -> ModelOperator:

@@ -24,9 +24,9 @@ from comparisons.judging.ladder.operators import (
     words_of,
 )
 from comparisons.judging.model_error.account import ErrorBudget, figure_of
-from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.model_error import ModelError, Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.judging.study import LADDER, Solved
+from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
@@ -124,22 +124,21 @@ class Ladder:
 
     def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
         """The half-plane with some of the effects, on the finite elements' pressure elements."""
-        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
-        runs = operator_runs(problem, held, finite_elements, self.solved.window, self.tasks)
+        runs = operator_runs(self.solved, held, self.tasks)
         if runs is None:
             return None
-        errors = [error for mu, run in runs.items() for error in self._errors(run, mu)]
+        every = self.budget.solutions
+        errors = [e for one in every for e in self._errors(one, runs[one.case.friction])]
         figures = self._figures(name, errors)
         return Rung(name, name, words_of(held), figures, *cost_of(runs), held)
 
-    def _errors(self, run: ModelRun, friction: float) -> list[ModelError]:
+    def _errors(self, solutions: Solutions, run: ModelRun) -> list[ModelError]:
         """Errors against the whole of a model that was solved on the half-plane's pressures."""
-        problem, finite_elements = self.solved.problem, self.solved.runs[OTHER]
-        rows = differences_of(run, finite_elements, problem, friction)
-        runs = {"half_plane": run, OTHER: finite_elements}
-        solutions = replace(self.budget.solutions[friction], runs=runs)
-        judged = [rows[row.quantity] for row in self._rows(friction)]
-        return [solutions.error(row) for row in judged]
+        case = solutions.case
+        rows = differences_of(run, case.runs[OTHER], case)
+        runs = {"half_plane": run, OTHER: case.runs[OTHER]}
+        solutions = replace(solutions, case=replace(case, runs=runs))
+        return [solutions.error(rows[row.quantity]) for row in self._rows(case)]
 
     def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
         """Model errors as figures of a rung."""
@@ -152,13 +151,13 @@ class Ladder:
         if (smooth := closed_form(self.solved.problem)) is None:
             return None
         began, problem, window = perf_counter(), self.solved.problem, self.solved.window
-        errors, finite_elements = [], self.solved.runs[OTHER]
-        for friction, solutions in self.budget.solutions.items():
-            exact = hertz_quantities(problem, friction, window)
-            stated = uncertainties(finite_elements, problem, friction)
+        errors = []
+        for solutions in self.budget.solutions:
+            exact = hertz_quantities(problem, solutions.case.friction, window)
+            stated = uncertainties(solutions.runs[OTHER], problem)
             errors += [
                 solutions.of_exact(row.quantity, exact, stated[row.quantity].total)
-                for row in self._rows(friction)
+                for row in self._rows(solutions.case)
             ]
         seconds = perf_counter() - began
         figures = self._figures(HERTZ, errors)
@@ -172,7 +171,7 @@ class Ladder:
     def _effects(self) -> Iterator[Rung]:
         """Finite elements with one effect each, where they are neither the whole nor the scene's
         own."""
-        every = self.budget.solutions.values()
+        every = self.budget.solutions
         for name in dict.fromkeys(name for solutions in every for name in solutions.effects):
             kind = NONLINEAR.get(name, LINEAR)
             levels = [level for solutions in every for level in solutions.split_levels]
@@ -181,10 +180,10 @@ class Ladder:
             if self.budget.selection.contained == {name} or is_whole:
                 continue
             errors = []
-            for friction, solutions in self.budget.solutions.items():
+            for solutions in every:
                 # with the effect, or where it does nothing, without any
                 levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in solutions.split_levels]
-                rows = self._rows(friction)
+                rows = self._rows(solutions.case)
                 errors += [solutions.of_variants(row.quantity, levels) for row in rows]
             words = f"{KINDS[kind]} alone"
             if kind == LINEAR:
@@ -195,14 +194,14 @@ class Ladder:
     def _own(self) -> Rung | None:
         """The scene's own finite elements, where they have effects and are not the whole."""
         contained, every = self.budget.selection.contained, self.budget.solutions
-        lacking = (solutions.missing[-1].figures.values() for solutions in every.values())
+        lacking = (solutions.missing[-1].figures.values() for solutions in every)
         if not contained or not any(np.any(change) for figures in lacking for change in figures):
             return None
         kind = kind_of(contained)
         errors = [
             solutions.of_variants(row.quantity, [level.of_scene for level in solutions.history])
-            for friction, solutions in every.items()
-            for row in self._rows(friction)
+            for solutions in every
+            for row in self._rows(solutions.case)
         ]
         run, words = self.solved.runs[OTHER], words_of_kind(contained)
         rung = _rung_of(run, OTHER, words, self._figures(OTHER, errors), kind)
@@ -211,19 +210,19 @@ class Ladder:
     def _whole(self) -> Rung:
         """What is not known of the reference itself."""
         run, errors = self.solved.runs[OTHER], []
-        for friction, solutions in self.budget.solutions.items():
-            stated = uncertainties(run, self.solved.problem, friction)
+        for solutions in self.budget.solutions:
+            stated = uncertainties(solutions.runs[OTHER], solutions.problem)
             errors += [
                 solutions.of_whole(row.quantity, stated[row.quantity].total)
-                for row in self._rows(friction)
+                for row in self._rows(solutions.case)
             ]
         inside = words_of_kind(self.budget.selection.whole)
         rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors))
         seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
         return replace(rung, seconds=rung.seconds + seconds, memory=max(rung.memory, memory))
 
-    def _rows(self, friction: float) -> list[Figure]:
-        return [row for row in self.compared if row.friction == friction]
+    def _rows(self, case: Case) -> list[Figure]:
+        return [row for row in self.compared if row.friction == case.friction]
 
 
 def announce_operators(
@@ -246,25 +245,31 @@ def announce_operators(
 
 
 def operator_runs(
-    problem: Problem, held: frozenset[str], like: ModelRun, window: Window | None, tasks: Tasks
+    solved: Solved, held: frozenset[str], tasks: Tasks
 ) -> dict[float, ModelRun] | None:
     """The half-plane with what an operator carries, by friction coefficient, on the pressure
-    elements of another model; None where it has no solution."""
-    pitches, runs = [level.grid.pitch for level in like.levels], {}
-    for group, keys in announce_operators(problem, held, pitches, window, tasks).items():
+    elements of the finite elements; None where it has no solution."""
+    pitches, runs = [level.grid.pitch for level in solved.runs[OTHER].levels], {}
+    where = solved.problem, held, pitches, solved.window, tasks
+    for group, keys in announce_operators(*where).items():
         try:
-            levels = tuple(map(tasks.result, keys))
+            solutions = list(map(tasks.result, keys))
         except ContactError:  # the cap takes a contact that the pressures' extent does not hold
             return None
-        if not all(level.solution.converged for level in levels):
-            return None
-        runs |= dict.fromkeys(group, ModelRun(OPERATORS, levels))
+        for friction in group:
+            levels = tuple(by_friction[friction] for by_friction in solutions)
+            if not all(level.converged for level in levels):
+                return None
+            runs[friction] = ModelRun(OPERATORS, levels)
     return runs
 
 
 def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
-    """Seconds and largest memory [bytes] of runs by friction coefficient, some of them one."""
-    once = {id(run): run for run in runs.values()}.values()
+    """Seconds and largest memory [bytes] of runs by friction coefficient, some of one contact."""
+    once: list[ModelRun] = []
+    for run in runs.values():
+        if not any(run.finest.shares_contact(known.finest) for known in once):
+            once.append(run)
     memory = max(run.finest.peak_memory for run in once)
     return sum(sum(run.seconds.values()) for run in once), memory
 

@@ -61,13 +61,13 @@ class ErrorBudget:
     unsplit: str | None  # why the difference of the models could not be split, else None
     model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
     seconds: float  # that the effects took
-    # by friction, the finite elements with every effect that matters, on the finest level of the
+    # of each case, the finite elements with every effect that matters, on the finest level of the
     # effects, with their fields
-    wholes: dict[float, Level] = field(default_factory=dict)
+    wholes: tuple[Level, ...] = ()
     # which further level of the whole cannot change a verdict, else None
     left_out: str | None = None
-    # by friction, what else is compared with the whole; empty where it has no solution
-    solutions: dict[float, Solutions] = field(default_factory=dict)
+    # of each case, what else is compared with the whole; empty where it has no solution
+    solutions: tuple[Solutions, ...] = ()
     # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
     took: dict[str, tuple[float, int]] = field(default_factory=dict)
 
@@ -99,8 +99,8 @@ def findings_of(budget: ErrorBudget, problem: Problem) -> Findings:
     )
     said = {"not split": budget.unsplit, "left out": budget.left_out}
     if "finite_strain" in budget.selection.whole and budget.wholes:
-        friction, whole = max(budget.wholes.items())
-        said[TRUST] = trust(problem, whole, friction)
+        frictions = problem.scene.load.friction
+        said[TRUST] = trust(problem, budget.wholes[frictions.index(max(frictions))])
     statements = tuple(Statement(name, text) for name, text in said.items() if text is not None)
     return Findings(tuple(figures), series, statements, budget)
 

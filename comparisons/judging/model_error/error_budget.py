@@ -10,7 +10,7 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 The model error and its uncertainty are stated for every figure in any case."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -56,7 +56,7 @@ from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVarian
 from comparisons.judging.study import Solved
 from comparisons.judging.yielding import flow_assessment
 from comparisons.models.forecast import flow_seconds, time_with_flow
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 
 
@@ -69,7 +69,7 @@ def error_budget(
     rows       the comparison of the solved models; its norms are figures of none
     couplings  of the half-plane, one a friction coefficient"""
     rows = tuple(row for row in rows if row.quantity in QUANTITIES)
-    problem, half_plane = solved.problem, solved.runs["half_plane"]
+    problem, frictions = solved.problem, solved.problem.scene.load.friction
     selection = selected_effects(solved, couplings)
     is_frugal = problem.scene.budget.effects != "all"
     if (
@@ -79,15 +79,15 @@ def error_budget(
         and _is_decided(rows, selection)
     ):
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
-    variants = _variants(solved, tasks, solved.runs["finite_element"])
+    variants = SolvedVariants(solved, tasks)
     while True:
-        splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.load.friction}
-        variants.keep(split.whole for split in splits.values())
-        solvers = half_plane, rows, splits, variants, selection
+        splits = tuple(split_variants(problem, selection, mu) for mu in frictions)
+        variants.keep(split.whole for split in splits)
+        solvers = rows, splits, variants, selection
         try:
             if FLOW in selection.added:
                 first = EffectRefinement(*solvers, LEAST_LEVELS).result(None)
-                wholes = [variants.finest(split.whole) for split in splits.values()]
+                wholes = _wholes(variants, splits)
                 if (flow := _idle_flow(problem, first, wholes)) is not None:
                     selection = selected_effects(solved, couplings, {FLOW: flow})
                     continue
@@ -95,7 +95,7 @@ def error_budget(
             refined = refinement.result(selection if is_frugal else None)
             if refinement.without_laws:
                 selection = selection.without(frozenset({LAW}), refinement.without_laws)
-            wholes = {mu: variants.finest(split.whole).under(mu) for mu, split in splits.items()}
+            wholes = _wholes(variants, splits)
             selection = _with_plastic_strain(problem, selection, wholes)
             if selection.impossible.get("finite_strain") != SMALL_STRAINS:
                 break
@@ -106,12 +106,11 @@ def error_budget(
             dropped = _given_up(selection, splits, variants)
             if not dropped:  # what the scene itself has cannot be taken apart
                 refined = RefinedEffects(0, _unsplit(rows), str(error), None)
-                finest = solved.runs["finite_element"].finest
-                wholes = {mu: finest.under(mu) for mu in splits}
+                wholes = tuple(case.runs["finite_element"].finest for case in solved.cases)
                 break
             selection = selection.without(dropped, str(error))
     if problem.scene.profile is not None:
-        known = sampling_estimate(problem, solved.window, half_plane.levels, tasks)
+        known = sampling_estimate(solved, tasks)
         selection = selection.estimated(SAMPLING, *known, problem.scene.tolerances)
     return ErrorBudget(
         selection=selection,
@@ -124,6 +123,12 @@ def error_budget(
         solutions=refined.solutions,
         took=_took(splits, variants),
     )
+
+
+def _wholes(variants: SolvedVariants, splits: Iterable[SplitVariants]) -> tuple[Level, ...]:
+    """The finest level of the whole of each case."""
+    pairs = zip(variants.scene.cases, splits, strict=True)
+    return tuple(variants.finest(split.whole, case.friction) for case, split in pairs)
 
 
 def _unsplit(rows: tuple[Figure, ...]) -> list[ModelError]:
@@ -151,12 +156,12 @@ def _idle_flow(problem: Problem, refined: RefinedEffects, wholes: Iterable[Level
 
 
 def _with_plastic_strain(
-    problem: Problem, selection: EffectSelection, wholes: Mapping[float, Level]
+    problem: Problem, selection: EffectSelection, wholes: Sequence[Level]
 ) -> EffectSelection:
     """With the estimates of finite deformation and of the law of elasticity by the pressures of
     wholes that flow, and by their plastic strains where their fields show these."""
-    strains = [s for level in wholes.values() if (s := level.plastic_strain) is not None]
-    pressures = [level.solution.pressure for level in wholes.values()]
+    strains = [s for level in wholes if (s := level.plastic_strain) is not None]
+    pressures = [level.solution.pressure for level in wholes]
     peak, mean = max(map(np.max, pressures)), max(map(mean_pressure, pressures))
     tolerances = problem.scene.tolerances
     if selection.impossible.get(LAW) == ITS_OWN_LAW:
@@ -169,7 +174,7 @@ def _with_plastic_strain(
 def _with_finite_flow(
     selection: EffectSelection,
     refined: RefinedEffects,
-    splits: Mapping[float, SplitVariants],
+    splits: Iterable[SplitVariants],
     variants: SolvedVariants,
 ) -> EffectSelection:
     """With finite strain of a whole that flows, whose estimate matters, where that may decide a
@@ -190,7 +195,7 @@ def _with_finite_flow(
     spent = spent_seconds(variants)
     if spent + seconds <= problem.time:
         return finite
-    flowing = dict.fromkeys(v for split in splits.values() for v in split.wholes)
+    flowing = dict.fromkeys(variant for split in splits for variant in split.wholes)
     time = spent + seconds
     finer = GROWTH_OF_TIME * variants.expected_of(refined.levels, flowing)
     for _ in range(refined.levels, min(most_effect_levels(problem), len(variants.of_scene.levels))):
@@ -202,11 +207,11 @@ def _with_finite_flow(
 
 
 def _took(
-    splits: dict[float, SplitVariants], variants: SolvedVariants
+    splits: Iterable[SplitVariants], variants: SolvedVariants
 ) -> dict[str, tuple[float, int]]:
     """Of each effect by itself and of the whole, of all friction coefficients together."""
     wanted: dict[str, dict[ModelVariant, None]] = {}
-    for split in splits.values():
+    for split in splits:
         wanted.setdefault(WHOLE, {}).update(dict.fromkeys(split.wholes))
         for name, (with_it, _) in split.pairs.items():
             wanted.setdefault(name, {})[with_it] = None
@@ -228,7 +233,7 @@ def announce_effects(
     levels. The whole will leave it open, too: its further level need not wait, and a process stays
     with the bodies of one level."""
     problem, half_plane = solved.problem, solved.runs["half_plane"]
-    selection, variants = selected_effects(solved, couplings), _variants(solved, tasks, None)
+    selection, variants = selected_effects(solved, couplings), SolvedVariants(solved, tasks)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.load.friction]
     variants.keep(split.whole for split in splits)
     wholes = [variant for split in splits for variant in split.wholes]
@@ -252,24 +257,18 @@ def announce_effects(
             variants.announce(() if is_further else every, number, splitting)
 
     announce(LAST, PERHAPS)
-    announce_sampling(problem, solved.window, half_plane.levels, tasks)
+    announce_sampling(solved, tasks)
     return partial(announce, LATER, LATER)
-
-
-def _variants(solved: Solved, tasks: Tasks, of_scene: ModelRun | None) -> SolvedVariants:
-    """None of them is solved yet; `of_scene` are the scene's own finite elements."""
-    patches = solved.runs["half_plane"].levels[0].patches
-    return SolvedVariants(solved.problem, solved.window, of_scene, tasks, patches)
 
 
 def selected_effects(
     solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = {}
 ) -> EffectSelection:
     """As the half-plane selects them, and what is `known` of effects that were computed."""
-    contacts = (level.solution.pressure for level in solved.runs["half_plane"].finest.by_friction)
-    pressure = max(contacts, key=np.max)
+    finest = (case.runs["half_plane"].finest for case in solved.cases)
+    pressure = max((level.solution.pressure for level in finest), key=np.max)
     problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
-    flow, peak = flow_assessment(problem, solved.runs), float(pressure.max())
+    flow, peak = flow_assessment(solved), float(pressure.max())
     # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
     if not why_not(FLOW, problem) and time_with_flow(problem, solved.plan, patches) > problem.time:
         more = with_unit(flow_seconds(problem, patches), "s", 2)
@@ -316,16 +315,13 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
 
 
 def _given_up(
-    selection: EffectSelection, splits: dict[float, SplitVariants], solved: SolvedVariants
+    selection: EffectSelection, splits: Iterable[SplitVariants], solved: SolvedVariants
 ) -> frozenset[str]:
     """The added effects to leave out where the whole has no solution: those that have none by
     themselves, else finite deformation, else all."""
     failed = {variant for variant, _ in solved.failed}
     alone = {
-        name
-        for split in splits.values()
-        for name, (with_it, _) in split.pairs.items()
-        if with_it in failed
+        name for split in splits for name, (with_it, _) in split.pairs.items() if with_it in failed
     }
     for fewer in (alone, {"finite_strain"}):
         if selection.added & fewer:

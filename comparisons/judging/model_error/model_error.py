@@ -7,7 +7,7 @@ effects. A largest value is followed asperity by asperity, and the whole's is th
 in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
 value at another one, what lies between the two is the jump, no effect."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -31,6 +31,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.judging.study import Case
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
@@ -59,13 +60,12 @@ class ModelError:
 
 @dataclass(frozen=True)
 class Solutions:
-    """What was solved at one friction coefficient, and the model errors that follow."""
+    """What was solved of one case, and the model errors that follow."""
 
-    problem: Problem
-    runs: dict[str, ModelRun]
-    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last
-    history: list[EffectContributions]
-    friction: float
+    case: Case
+    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last; none
+    # where the whole has no solution
+    history: tuple[EffectContributions, ...] = ()
     laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
     # the whole, at small strains, on the coarsest level by longer increments of flow, the longest
     # first, and by its own; empty: they have no solution; None: it does not flow, or the scene's
@@ -74,6 +74,14 @@ class Solutions:
     # by effect of size, what lacks it on the coarsest level with its far boundary at half the
     # distance, where it has a solution
     nearer: dict[str, QuantitiesOfInterest] = field(default_factory=dict)
+
+    @property
+    def problem(self) -> Problem:
+        return self.case.problem
+
+    @property
+    def runs(self) -> Mapping[str, ModelRun]:
+        return self.case.runs
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -91,7 +99,7 @@ class Solutions:
     def values(self) -> dict[str, dict[str, float]]:
         """Of each model's finest level, by model and quantity [SI]."""
         runs = self.runs.items()
-        return {name: values_of(run.finest, self.problem, self.friction) for name, run in runs}
+        return {name: values_of(run.finest, self.problem) for name, run in runs}
 
     @cached_property
     def half_plane(self) -> list[QuantitiesOfInterest]:
@@ -103,8 +111,7 @@ class Solutions:
         return self._levels("finite_element")
 
     def _levels(self, model: str) -> list[QuantitiesOfInterest]:
-        levels = self.runs[model].levels
-        return [quantities_of(level, self.problem, self.friction) for level in levels]
+        return [quantities_of(level, self.problem) for level in self.runs[model].levels]
 
     @cached_property
     def wholes(self) -> list[QuantitiesOfInterest]:
@@ -154,7 +161,7 @@ class Solutions:
         jump, moved = self._jump(name, row.numerical, at)
         return ModelError(
             quantity=name,
-            friction=self.friction,
+            friction=self.case.friction,
             effects=effects,
             interaction=interaction,
             value=value,
@@ -189,7 +196,7 @@ class Solutions:
     def _order(self, name: str) -> float:
         """Of convergence under refinement."""
         finest = [run.finest for run in self.runs.values()]
-        return formal_order(name, finest, self.problem, self.friction)
+        return formal_order(name, finest, self.problem)
 
     def _estimate(
         self, name: str, changes: list[QuantitiesOfInterest], at: int
@@ -235,7 +242,7 @@ class Solutions:
             numerical = max(numerical, self.unsolved + refined.uncertainty)
         lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
         if self.longer is not None:  # the half-plane on its finest level, the whole on another
-            stated = uncertainties(self.runs["half_plane"], self.problem, self.friction)[name]
+            stated = uncertainties(self.runs["half_plane"], self.problem)[name]
             numerical += stated.total * _scale(half_plane, name, self.problem) / scale
         uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
@@ -260,7 +267,7 @@ class Solutions:
 
         numerical  of the figure, relative"""
         largest, whole = LARGEST[name], self.whole.figures
-        stated = uncertainties(self.runs["finite_element"], self.problem, self.friction)
+        stated = uncertainties(self.runs["finite_element"], self.problem)
         alone = stated[largest].total  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
         beside = self.missing if self.longer is None else self.wholes
@@ -335,7 +342,7 @@ class Solutions:
 
     def _plain_error(self, name: str, at: int, value: float, unsure: float) -> ModelError:
         scale, law = self._scale_of(name, at), self._law(name, at)
-        return ModelError(name, self.friction, {}, 0.0, value, unsure, scale, law=law)
+        return ModelError(name, self.case.friction, {}, 0.0, value, unsure, scale, law=law)
 
 
 def _scale(figure: float, name: str, problem: Problem) -> float:

@@ -49,9 +49,8 @@ class QuantitiesOfInterest:
         return {name: float(values[self.leading(name)]) for name, values in self.figures.items()}
 
 
-def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
+def quantities_of(level: Level, problem: Problem) -> QuantitiesOfInterest:
     """Of a solved level; `problem` is the one that it solves."""
-    level = level.under(friction)
     x = level.grid.x if level.material is None else level.material
     cell, pressure = np.searchsorted(problem.asperities, x), level.solution.pressure
     peaks = [
@@ -59,8 +58,8 @@ def quantities_of(level: Level, problem: Problem, friction: float) -> Quantities
         for k in range(len(problem.asperities) + 1)
     ]
     figures = {"peak_pressure": pressure[peaks], "contact_length": np.array([level.contact_length])}
-    places, stress = {"peak_pressure": x[peaks]}, level.stress(friction)
-    if stress is not None:
+    places = {"peak_pressure": x[peaks]}
+    if (stress := level.stress) is not None:
         for name, key in (("tau1_max", "tau1"), ("txz_max_abs", "txz")):
             figures[name], places[name], depth = stress.maxima[key]
             if name == "tau1_max":

@@ -3,7 +3,7 @@ further level could change is no verdict."""
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from comparisons.common.tasks import LAST
@@ -13,15 +13,12 @@ from comparisons.judging.effects.laws import LawSolutions, law_variants
 from comparisons.judging.effects.selection import FLOW, NONLINEAR, EffectSelection
 from comparisons.judging.model_error.account import figure_of
 from comparisons.judging.model_error.contributions import (
-    EffectContributions,
     NotComputedError,
     SplitVariants,
     contributions_of,
 )
 from comparisons.judging.model_error.model_error import ModelError, Solutions
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVariants
-from comparisons.models.level import ModelRun
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import Problem
 
@@ -50,7 +47,20 @@ class RefinedEffects:
     errors: list[ModelError]
     unsplit: str | None  # why these are not split
     left_out: str | None  # which level cannot change a verdict
-    solutions: dict[float, Solutions] = field(default_factory=dict)  # by friction
+    solutions: tuple[Solutions, ...] = ()  # of each case
+
+
+@dataclass
+class _CaseEffects:
+    """The variants of one case, and what is solved of them."""
+
+    split: SplitVariants
+    laws: dict[tuple[int, str], ModelVariant]  # the whole with other laws of elasticity
+    increments: tuple[ModelVariant, ...]  # by longer increments of flow, the longest first
+    solutions: Solutions
+
+    def now(self, **found: object) -> None:
+        self.solutions = replace(self.solutions, **found)
 
 
 class EffectRefinement:
@@ -59,35 +69,33 @@ class EffectRefinement:
 
     def __init__(
         self,
-        half_plane: ModelRun,
         rows: tuple[Figure, ...],
-        splits: dict[float, SplitVariants],
+        splits: tuple[SplitVariants, ...],
         solved: SolvedVariants,
         selection: EffectSelection,
         most: int = MOST_LEVELS,
     ) -> None:
-        """`most` levels at most."""
-        laws = selection.laws
-        self.laws = {mu: law_variants(split.whole, laws) for mu, split in splits.items()}
-        self.open_laws, self.without_laws = laws, ""  # why they have no solution
-        self.with_laws: dict[float, LawSolutions] = {}
-        # increments are checked at small strains: they are the same at finite ones
-        small = {mu: split.whole for mu, split in splits.items()}
-        if selection.whole.issuperset(NONLINEAR):
-            small = {mu: split.pairs["finite_strain"][1] for mu, split in splits.items()}
-        longer = {mu: longer_increments(whole, selection) for mu, whole in small.items()}
-        self.increments = {mu: (*some, small[mu]) if some else () for mu, some in longer.items()}
-        self.longer: dict[float, list[QuantitiesOfInterest]] = {}
-        self.nearer: dict[float, dict[str, QuantitiesOfInterest]] = {mu: {} for mu in splits}
-        self.rows, self.splits, self.solved, self.problem = rows, splits, solved, solved.problem
-        self.runs = {"half_plane": half_plane, "finite_element": solved.of_scene}
+        """`splits` of each case; `most` levels at most."""
+        self.open_laws, self.without_laws = selection.laws, ""  # why they have no solution
+        self.rows, self.solved, self.problem = rows, solved, solved.problem
+        self.cases = []
+        for case, split in zip(solved.scene.cases, splits, strict=True):
+            # increments are checked at small strains: they are the same at finite ones
+            small = split.whole
+            if selection.whole.issuperset(NONLINEAR):
+                small = split.pairs["finite_strain"][1]
+            longer = longer_increments(small, selection)
+            increments = (*longer, small) if longer else ()
+            known = Solutions(case, longer=[] if increments else None)
+            laws = law_variants(split.whole, selection.laws)
+            self.cases.append(_CaseEffects(split, laws, increments, known))
         self.most = min(most, most_effect_levels(solved.problem), len(solved.of_scene.levels))
-        self.every = dict.fromkeys(variant for split in splits.values() for variant in split.all)
-        self.wholes = dict.fromkeys(
-            variant for split in splits.values() for variant in split.wholes
-        )
-        frictions = solved.problem.scene.load.friction
-        self.history: dict[float, list[EffectContributions]] = {mu: [] for mu in frictions}
+        self.every = dict.fromkeys(variant for split in splits for variant in split.all)
+        self.wholes = dict.fromkeys(variant for split in splits for variant in split.wholes)
+
+    @property
+    def solutions(self) -> tuple[Solutions, ...]:
+        return tuple(one.solutions for one in self.cases)
 
     def result(self, frugal: EffectSelection | None) -> RefinedEffects:
         """The wholes, which others need, are solved before what splits them.
@@ -96,23 +104,25 @@ class EffectRefinement:
         Raises NotComputedError where a whole has no solution on the least levels."""
         for number in range(1, LEAST_LEVELS + 1):
             self.solved.announce(self.every, number, LAST)
-        for mu, variants in self.laws.items():
-            nearer = self.splits[mu].held_nearer.values()
-            self.solved.announce((*variants.values(), *self.increments[mu], *nearer), 1, LAST)
+        for one in self.cases:
+            nearer = one.split.held_nearer.values()
+            self.solved.announce((*one.laws.values(), *one.increments, *nearer), 1, LAST)
         left_out = self._take_wholes(frugal)
-        levels = len(next(iter(self.history.values())))
+        levels = len(self.solutions[0].history)
         for number in range(1, levels + 1):
             is_open = any(self.solved.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
         # on the coarsest level, what lacks an effect of size with its far boundary nearer
-        for mu, split in self.splits.items():
-            for name, variant in split.held_nearer.items():
+        for one in self.cases:
+            nearer, friction = {}, one.solutions.case.friction
+            for name, variant in one.split.held_nearer.items():
                 with suppress(NotComputedError):
-                    self.nearer[mu][name] = self.solved.solution(variant, 1, mu)
-        parts = (level for of_friction in self.history.values() for level in of_friction)
+                    nearer[name] = self.solved.solution(variant, 1, friction)
+            one.now(nearer=nearer)
+        parts = (level for solutions in self.solutions for level in solutions.history)
         why = next((level.unsplit for level in parts if level.unsplit), None)
-        return RefinedEffects(levels, self._errors(), why, left_out, self._solutions())
+        return RefinedEffects(levels, self._errors(), why, left_out, self.solutions)
 
     def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
@@ -141,57 +151,49 @@ class EffectRefinement:
 
     def _take_laws(self) -> None:
         """The wholes on the coarsest level with other laws; `without_laws` where one has none."""
-        for mu, variants in self.laws.items():
-            self.solved.prepare(variants.values(), 1)
+        for one in self.cases:
+            self.solved.prepare(one.laws.values(), 1)
+            solved = partial(self.solved.solution, number=1, friction=one.solutions.case.friction)
             try:
-                moved = {key: self.solved.solution(v, 1, mu) for key, v in variants.items()}
+                moved = {key: solved(variant) for key, variant in one.laws.items()}
             except NotComputedError as error:
                 self.without_laws = f"with the law of {error.variant.laws_name}: {error}"
-                self.with_laws = {}
+                for known in self.cases:
+                    known.now(laws=None)
                 return
-            if variants:
-                whole = self.history[mu][0].whole
-                self.with_laws[mu] = LawSolutions(self.problem, self.open_laws, whole, moved)
+            if moved:
+                whole = one.solutions.history[0].whole
+                laws = LawSolutions(one.solutions.problem, self.open_laws, whole, moved)
+                one.now(laws=laws)
 
     def _take_increments(self) -> None:
         """The wholes that flow on the coarsest level by longer increments; none where one of them
         has no solution."""
-        for mu, variants in self.increments.items():
-            self.solved.prepare(variants, 1)
-            try:
-                self.longer[mu] = [self.solved.solution(v, 1, mu) for v in variants]
-            except NotComputedError:
-                self.longer[mu] = []
+        for one in self.cases:
+            self.solved.prepare(one.increments, 1)
+            solved = partial(self.solved.solution, number=1, friction=one.solutions.case.friction)
+            with suppress(NotComputedError):
+                if one.increments:
+                    one.now(longer=list(map(solved, one.increments)))
 
     def _take(self, number: int, alone: bool) -> None:
         """A level into the history: of the wholes alone, or of every variant."""
         self.solved.prepare(self.wholes if alone else self.every, number)
-        new = {}
-        for mu, split in self.splits.items():
-            solved = partial(self.solved.solution, number=number, friction=mu)
-            new[mu] = contributions_of(solved, split, alone)
-        for mu, parts in new.items():
-            self.history[mu][number - 1 : number] = [parts]
+        new = []
+        for one in self.cases:
+            known = {"number": number, "friction": one.solutions.case.friction}
+            new.append(contributions_of(partial(self.solved.solution, **known), one.split, alone))
+        for one, parts in zip(self.cases, new, strict=True):  # all of them, or none
+            before, after = one.solutions.history[: number - 1], one.solutions.history[number:]
+            one.now(history=(*before, parts, *after))
 
     def _errors(self) -> list[ModelError]:
         return [
             solutions.error(row)
-            for mu, solutions in self._solutions().items()
+            for solutions in self.solutions
             for row in self.rows
-            if row.friction == mu
+            if row.friction == solutions.case.friction
         ]
-
-    def _solutions(self) -> dict[float, Solutions]:
-        made = {}
-        for mu, parts in self.history.items():
-            runs = {name: run.under(mu) for name, run in self.runs.items()}
-            made[mu] = Solutions(
-                *(self.problem, runs, parts, mu),
-                laws=self.with_laws.get(mu),
-                longer=self.longer.get(mu, []) if self.increments[mu] else None,
-                nearer=self.nearer[mu],
-            )
-        return made
 
     def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
         """Whether a finer solution leaves every verdict as it is."""

@@ -1,7 +1,7 @@
 """Model variants solved level by level, each once, as tasks of the run."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -26,6 +26,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.judging.study import Solved
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
@@ -42,12 +43,8 @@ CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 class SolvedVariants:
     """Quantities of interest of model variants on the levels of a problem."""
 
-    problem: Problem
-    window: Window | None
-    of_scene: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
+    scene: Solved  # by the half-plane, perhaps by its own finite elements, too
     tasks: Tasks  # that solve the variants
-    # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
-    patches: np.ndarray
     # by variant, number of the level from 1, and friction coefficient
     solved: dict[tuple[ModelVariant, int, float], QuantitiesOfInterest] = field(
         default_factory=dict
@@ -58,12 +55,20 @@ class SolvedVariants:
     took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
     # the seconds by the laws of cost [s], by variant and number of the level
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
-    # the variants whose finest level is kept, with its fields; by these, the level
-    wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
+    # the variants whose finest level is kept, with its fields; by these, the level by friction
+    wholes: dict[ModelVariant, dict[float, Level]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.problem = self.scene.problem
+        # of the half-plane's contact, by which the costs of variants are expected
+        self._patches = self.scene.runs["half_plane"].levels[0].patches
         scene = self.problem.scene
         self._own_effects = contained(scene) if is_taken_apart(scene) else None
+
+    @property
+    def of_scene(self) -> ModelRun:
+        """The scene's own finite elements, of the first case."""
+        return self.scene.runs["finite_element"]
 
     def solution(
         self, variant: ModelVariant | None, number: int, friction: float
@@ -71,7 +76,8 @@ class SolvedVariants:
         """Of a variant on a level, None for the scene's own finite elements, solved where it is
         new; raises NotComputedError."""
         if variant is None or self._is_own(variant):
-            return quantities_of(self.of_scene.levels[number - 1], self.problem, friction)
+            case = self.scene.case(friction)
+            return quantities_of(case.runs["finite_element"].levels[number - 1], case.problem)
         self.prepare([variant], number)
         if (variant, number) in self.failed:
             raise self.failed[variant, number]
@@ -112,12 +118,14 @@ class SolvedVariants:
 
     def keep(self, wholes: Iterable[ModelVariant]) -> None:
         """Take these for `wholes`, from their first level on."""
-        self.wholes = dict.fromkeys(wholes)
+        self.wholes = {variant: {} for variant in wholes}
         self.solved = {key: kept for key, kept in self.solved.items() if key[0] not in self.wholes}
 
-    def finest(self, variant: ModelVariant) -> Level:
+    def finest(self, variant: ModelVariant, friction: float) -> Level:
         """The finest level of one of the `wholes`."""
-        return self.of_scene.finest if self._is_own(variant) else self.wholes[variant]
+        if self._is_own(variant):
+            return self.scene.case(friction).runs["finite_element"].finest
+        return self.wholes[variant][friction]
 
     def _is_own(self, variant: ModelVariant) -> bool:
         there, effects = self.problem.scene.load.friction, self._own_effects
@@ -133,7 +141,7 @@ class SolvedVariants:
         problem, plan, pitch, cost = self._posed(variant, number)
         self.expected.setdefault((variant, number), cost.seconds)
         shown = whole and number >= LEAST_LEVELS  # it may be the finest
-        work = partial(_solved, problem=problem, plan=plan, window=self.window, fields=shown)
+        work = partial(_solved, problem=problem, plan=plan, window=self.scene.window, fields=shown)
         size = {"seconds": cost.seconds, "memory": cost.memory}
         self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
         return key
@@ -144,20 +152,21 @@ class SolvedVariants:
         """Problem, plan, pitch [m] and cost of a variant on a level."""
         problem = problem_with(self.problem, variant)
         plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
-        cost = expected_level("finite_element", problem, plan, pitch, self.patches)
+        cost = expected_level("finite_element", problem, plan, pitch, self._patches)
         return problem, plan, pitch, cost
 
-    def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:
-        """Note the solution of a variant on a level."""
+    def _keep(self, variant: ModelVariant, number: int, levels: Mapping[float, Level]) -> None:
+        """Note the solution of a variant on a level, by friction."""
+        level = next(iter(levels.values()))
         seconds = sum(level.seconds.values())
         before, memory = self.took.get(variant, (0.0, 0))
         self.took[variant] = before + seconds, max(memory, level.peak_memory)
         if variant in self.wholes:
-            self.wholes[variant] = level
+            self.wholes[variant] = dict(levels)
         self.expected[variant, number] = level.expected_seconds
         problem = problem_with(self.problem, variant)
-        for coefficient in problem.scene.load.friction:
-            self.solved[variant, number, coefficient] = quantities_of(level, problem, coefficient)
+        for friction, level in levels.items():
+            self.solved[variant, number, friction] = quantities_of(level, problem)
 
 
 def _solved(
@@ -168,7 +177,7 @@ def _solved(
     plan: Plan,
     window: Window | None,
     fields: bool,
-) -> Level:
+) -> dict[float, Level]:
     """A variant's `problem` on a level, with its `fields` on window and mesh where asked; raises
     NotComputedError."""
     from comparisons.models.finite_element.bodies import BodyCache
@@ -184,12 +193,13 @@ def _solved(
     stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
     how = refinement, window, stages, body_cache
     try:
-        level = finite_element_level(problem, plan, *how, fields=fields)
+        levels = finite_element_level(problem, plan, *how, fields=fields)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
-    if not level.converged:
-        raise NotComputedError(variant, f"the contact did not converge on level {number}")
-    low, high = problem.extent
-    if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:
-        raise NotComputedError(variant, "the contact reaches the end of the pressures")
-    return level
+    low, high = problem.extent[0] + CLEAR * pitch, problem.extent[1] - CLEAR * pitch
+    for level in levels.values():
+        if not level.converged:
+            raise NotComputedError(variant, f"the contact did not converge on level {number}")
+        if level.patches[0, 0] < low or level.patches[-1, 1] > high:
+            raise NotComputedError(variant, "the contact reaches the end of the pressures")
+    return levels

@@ -50,7 +50,7 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
     moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     selection = selected_effects(solved, moved)
     account = {name: effect_account(name, selection) for name in EFFECTS}
-    flows = flows_at_such(solved.problem.scene, flow_assessment(solved.problem, solved.runs))
+    flows = flows_at_such(solved.problem.scene, flow_assessment(solved))
     lines = [f"flow: {flows}"] if flows else []
     for status in ("computed", "not computed"):
         names = [name for name, (what, _) in account.items() if what == status]
@@ -63,7 +63,8 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     more = announce_effects(solved, moved, tasks)
-    for line in early_lines(solved.problem, solved.runs["half_plane"].finest, moved):
+    case = max(solved.cases, key=lambda case: case.friction)
+    for line in early_lines(case.problem, case.runs["half_plane"].finest, moved):
         tasks.callback(Early(line))
     return more
 
@@ -77,12 +78,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 def early_lines(
     problem: Problem, level: Level, couplings: tuple[Coupling, ...] = ()
 ) -> tuple[str, str]:
-    """The half-plane's figures on a level, at the largest friction coefficient, and what it may
-    leave out, by estimates: these are larger than what they stand for, and no verdict.
+    """The half-plane's figures on a level, and what it may leave out, by estimates: these are
+    larger than what they stand for, and no verdict.
 
     couplings  of the half-plane, where they are known"""
-    friction, scene = max(problem.scene.load.friction), problem.scene
-    known = values_of(level, problem, friction)
+    scene, known = problem.scene, values_of(level, problem)
     figures = {name: known[name] for name in SAID_EARLY if name in known}
     said = [
         f"{QUANTITIES[name].short} {with_unit(value, QUANTITIES[name].unit)}"
@@ -91,7 +91,7 @@ def early_lines(
     # half-planes do not flow, though the scene's finite elements may
     flow = False if scene.finite_element.plastic is False else None
     elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": flow}))
-    pressure = level.under(friction).solution.pressure
+    pressure = level.solution.pressure
     every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
     sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
     left = []

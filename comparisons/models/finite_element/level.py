@@ -34,7 +34,7 @@ from comparisons.models.finite_element.nonlinear import (
     pressed_plastically_finitely,
 )
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level, flowing_contact, refuse_too_large, under_each
+from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
 from comparisons.models.nearest_operator import nearest_operator, solve_on, surface_material
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Levels, Problem
@@ -58,8 +58,9 @@ def finite_element_level(
     body_cache: BodyCache | None = None,
     approach: float | None = None,
     fields: bool = True,
-) -> Level:
-    """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
+) -> dict[float, Level]:
+    """Solve one level at each friction coefficient: mesh, factorise, press, and where asked for
+    compute the stresses.
 
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
@@ -70,8 +71,9 @@ def finite_element_level(
     or FemError where a mesh or a factorisation fails."""
     body_cache = body_cache or BodyCache()
 
-    def solve(problem: Problem) -> Level:
+    def solve(problem: Problem) -> dict[float, Level]:
         """Under friction coefficients that share a contact."""
+        frictions = problem.scene.load.friction
         solving = _LevelSolution(problem, plan, refinement, stages, approach)
         with stages.stage("assembly", "finite elements: loading"):
             start_worker()
@@ -100,13 +102,14 @@ def finite_element_level(
             material=pressed.material,
         )
         if window is None:
-            return replace(level, peak_memory=peak_memory())
+            return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
         with stages.stage("stresses", "finite elements: stresses"):
-            frictions, asperities = problem.scene.load.friction, problem.asperities
-            stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
-        return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
+            how = frictions, window, problem.asperities, fields
+            stresses, mesh_field = stresses_of(pressed, *how)
+        level = replace(level, peak_memory=peak_memory(), mesh_field=mesh_field)
+        return {stress.friction: replace(level, stress=stress) for stress in stresses}
 
-    return under_each(problem, "finite_element", solve)
+    return by_friction(problem, "finite_element", solve)
 
 
 @dataclass(frozen=True)
@@ -246,9 +249,8 @@ def problem_of_approach(
     def pressed(problem: Problem) -> tuple[float, np.ndarray]:
         callback("finite elements: load of the prescribed approach")
         plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[-1])
-        level = finite_element_level(
-            problem, plan, refinement, None, Stages(), body_cache, approach
-        )
+        how = refinement, None, Stages(), body_cache, approach
+        level, *_ = finite_element_level(problem, plan, *how).values()
         return level.solution.load, level.patches
 
     return settled(scene, surface or surface_of(scene), pressed, levels=levels)

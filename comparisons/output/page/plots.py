@@ -72,9 +72,12 @@ class Plots:
             raise InputError("the scene has no field; allowed is a scene with [stress]")
         import pyvista
 
+        from comparisons.output.arrays import levels_by_folder
         from comparisons.output.field_files import field_of, vtk_grid
 
-        field = field_of(self.outcome, levels[model])
+        every, shown = levels_by_folder(self.outcome).values(), levels[model]
+        together = next(of for of in every if any(level is shown for level in of.values()))
+        field = field_of(self.outcome, together)
         array = next((n for n in field.arrays if n.partition(" (")[0] == array), array)
         if array not in field.arrays:
             raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")

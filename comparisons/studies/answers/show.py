@@ -187,8 +187,8 @@ def _pressures(run: Run, answers: Mapping[str, Answer]) -> style.Picture:
 
 def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:
     """An answer's pressures, and below what they differ from the reference by."""
-    hertz, reference = run.problem.hertz, run.runs[reference_of(run)]
-    level = reference.finest.under(run.deciding_friction)
+    hertz, case = run.problem.hertz, run.solved.case(run.deciding_friction)
+    level = case.runs[reference_of(run)].finest
     few, x = len(answer.x) < MARKED, level.grid.x
     p = np.where(answer.touching, answer.pressure, 0.0) / hertz.peak_pressure
     around = {**look, **style.PALE, "marker": "." if few else None}  # the models' lines
@@ -201,7 +201,7 @@ def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
     """An answer's field, its reference's, and the difference; one alone where they coincide."""
     hertz, window, stress = run.problem.hertz, run.window, answer.stress
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
-    reference = run.runs[reference_of(run)].finest.stress(stress.friction)
+    reference = run.solved.case(stress.friction).runs[reference_of(run)].finest.stress
     fields = [known.field.tau1 / hertz.peak_pressure for known in (stress, reference)]
     names = name, LABELS[reference_of(run)]
     shown = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]

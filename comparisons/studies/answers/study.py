@@ -39,8 +39,8 @@ from comparisons.figures.uncertainty import (
 )
 from comparisons.judging.comparison import norms, pair_norms, relative_differences
 from comparisons.judging.contact import by_repetition, uncertainties, values_of
-from comparisons.judging.study import SCATTER, Solved
-from comparisons.models.level import Level, ModelRun
+from comparisons.judging.study import SCATTER, Case, Solved
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.answers.answer import Answer
@@ -66,7 +66,6 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     problem, answers = solved.problem, _read(solved, tasks)
-    *_, model = solved.runs.values()
     operators = operators_of(problem, solved.plan, solved.runs)
     scattered = Figures(before[SCATTER].figures if SCATTER in before else ())
     figures, series = [], []
@@ -74,14 +73,16 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         finest, validation = answers[name][-1], []
         frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
         for friction in frictions:
-            figures += _figures(solved, model, friction, name, answers[name])
+            case = solved.case(friction)
+            figures += _figures(case, solved.window, name, answers[name])
             if source.scatter is not None:
                 measured = figures_of_answer(finest, problem, friction)
                 known = scattered.of(friction=friction)
-                validation += _validation(solved, friction, measured, source.scatter, known)
+                validation += _validation(case, measured, source.scatter, known)
         balance = finest.load / problem.hertz.load_per_length - 1.0
         figures += figures_of(NAME, name, {"load_balance": balance}, ITSELF)
         figures += figures_of(NAME, name, {"spacing": finest.spacing})
+        *_, model = solved.case(frictions[0]).runs.values()
         by_model = [
             {"model": model} | residuals
             for model, residuals in conditions(finest, problem, operators).items()
@@ -89,7 +90,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         by_quantity = grouped(validation, itemgetter("quantity"))
         tables = {
             CONDITIONS: by_model,
-            HINTS: [asdict(h) for h in hints(finest, problem, model.finest.under(frictions[0]))],
+            HINTS: [asdict(h) for h in hints(finest, problem, model.finest)],
             VALIDATION: [row for rows in by_quantity for row in rows],
         }
         series += _tables_of(name, tables)
@@ -130,12 +131,12 @@ def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict
 
 
 def _figures(
-    solved: Solved, model: ModelRun, friction: float, name: str, answers: tuple[Answer, ...]
+    case: Case, window: Window | None, name: str, answers: tuple[Answer, ...]
 ) -> Iterator[Figure]:
-    """An answer's figures at one friction coefficient, where it has them, and their differences
-    from a model's, (answer - model) / model, or norms, in the order of COMPARED. Uncertain is a
-    difference by the model and by the answer's own, or else by how finely its points are read."""
-    problem, window, model = solved.problem, solved.window, model.under(friction)
+    """An answer's figures in a case, where it has them, and their differences from the last
+    model's, (answer - model) / model, or norms, in the order of COMPARED. Uncertain is a difference
+    by the model and by the answer's own, or else by how finely its points are read."""
+    problem, friction, (*_, model) = case.problem, case.friction, case.runs.values()
     scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
     finest, first = answers[-1], model.levels[0]
 
@@ -145,9 +146,9 @@ def _figures(
     by_level = [against(finest, level) for level in model.levels]
     by_file = [against(answer, model.finest) for answer in answers]
     repeated = by_repetition(model, lambda level: against(finest, level))
-    repeated |= by_repetition(model, lambda level: norms(level, first, friction, window))
+    repeated |= by_repetition(model, lambda level: norms(level, first, window))
     values = figures_of_answer(finest, problem, friction)
-    reference = values_of(model.finest, problem, friction)
+    reference = values_of(model.finest, problem)
     for quantity, difference in by_level[-1].items():
         order, size = COMPARED[quantity].formal_order, abs(1.0 + difference)
         resolution, scale = 0.0, abs(reference.get(quantity, 0.0)) or 1.0
@@ -165,7 +166,7 @@ def _figures(
             stated = (stated or 0.0) + scatter * (1.0 if quantity in NORMS else size)
         own = None if stated is None else {"own": stated}
         common = {"study": NAME, "quantity": quantity, "source": name}
-        common["at"] = {"friction": friction}
+        common["at"] = case.at
         if (value := values.get(quantity)) is not None:
             sure = own and Uncertainty(own)
             yield Figure(value=value, scale=abs(value) or 1.0, uncertainty=sure, **common)
@@ -208,7 +209,7 @@ def _differences(
     answer: Answer, level: Level, problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
     """(answer - level) / level of every figure that both have, and the norms."""
-    stress, other = answer.stress, level.stress(friction)
+    stress, other = answer.stress, level.stress
     tau1 = None
     if stress is not None and stress.friction == friction and other is not None:
         tau1 = stress.field.tau1
@@ -218,7 +219,7 @@ def _differences(
         (tau1, None if other is None else other.tau1),
         window,
     )
-    reference = values_of(level, problem, friction)
+    reference = values_of(level, problem)
     values = figures_of_answer(answer, problem, friction)
     both = {name: value for name, value in values.items() if name in reference}
     differences |= relative_differences(both, reference, problem)
@@ -226,8 +227,7 @@ def _differences(
 
 
 def _validation(
-    solved: Solved,
-    friction: float,
+    case: Case,
     measured: Mapping[str, float],
     u_data: float,
     scattered: Figures,
@@ -237,9 +237,10 @@ def _validation(
     measured   the data's figures by quantity, SI; `u_data` is their relative scatter
     scattered  the half-plane's by uncertain inputs; where one is not known, u_input is None and
                counts as none"""
-    for name, run in solved.runs.items():
-        stated = uncertainties(run, solved.problem, friction)
-        for quantity, value in values_of(run.finest, solved.problem, friction).items():
+    friction = case.friction
+    for name, run in case.runs.items():
+        stated = uncertainties(run, case.problem)
+        for quantity, value in values_of(run.finest, case.problem).items():
             if not measured.get(quantity):
                 continue
             ratio, inputs = value / measured[quantity], scattered.one(quantity=quantity)

@@ -110,7 +110,8 @@ def solvers(solved: Solved) -> dict[str, Solve]:
 
 
 def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
-    run, count = solved.runs[name], solved.problem.scene.partial_slip.increments
+    case = solved.case(solved.problem.largest_friction)
+    run, count = case.runs[name], solved.problem.scene.partial_slip.increments
     levels = tuple(solve_level(level, count) for level in run.levels)
     smaller = fewer = None
     if run.far_boundary_check is not None:

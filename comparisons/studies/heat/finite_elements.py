@@ -167,7 +167,7 @@ def finite_element_stress(
     x = surface_places(problem, level, window)
     x = x[np.abs(x) <= field.mesh.spec.half_width]
     along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))
-    cold = level.stress(friction).extremes["tau1"]
+    cold = level.stress.extremes["tau1"]
     sx = np.array([stress.sx for stress in along])
     if not is_layered(problem.scene):
         sx += (1.0, friction) @ left_out_at_ends(problem, level.grid, level.solution, x)

@@ -210,7 +210,7 @@ def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedS
     elastic += (1.0, friction) @ left_out_at_ends(problem, level.grid, level.solution, x)
     nodes, stress = _thermal_line(problem, level, (x[0], x[-1]), np.zeros(1))
     sx = np.array([elastic + CubicSpline(nodes, stress.sx[0])(x), elastic])
-    return HeatedStress((maxima.tau1, level.stress(friction).extremes["tau1"]), x, sx)
+    return HeatedStress((maxima.tau1, level.stress.extremes["tau1"]), x, sx)
 
 
 def _thermal(

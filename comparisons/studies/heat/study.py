@@ -77,8 +77,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison; what older rules say, and in words what the
     finite elements have."""
-    problem, friction = solved.problem, solved.problem.largest_friction
-    runs = {name: run.under(friction) for name, run in solved.runs.items()}
+    case = max(solved.cases, key=lambda case: case.friction)
+    problem, friction, runs = case.problem, case.friction, case.runs
     tasks.callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = _heat_figures(problem, runs, contains)

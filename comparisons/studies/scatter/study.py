@@ -86,9 +86,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     failures = [answer for answer in answers if isinstance(answer, str)]
     columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
     scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
-    figures, finest = [], solved.runs["half_plane"].finest
-    for number, (friction, coarse) in enumerate(_nominal(problem)[0].items()):
-        for quantity, value in values_of(finest, problem, friction).items():
+    figures, coarsest = [], _nominal(problem)[0]
+    for number, case in enumerate(solved.cases):
+        friction, coarse = case.friction, coarsest[case.friction]
+        finest = case.runs["half_plane"].finest
+        for quantity, value in values_of(finest, case.problem).items():
             values = [np.nan if isinstance(a, str) else a[number][quantity] for a in answers]
             values = np.array(values).reshape(len(points), -1)
             if coarse[quantity]:
@@ -223,9 +225,9 @@ def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarra
     scene = problem.scene
     window = None if scene.stress is None else window_of(problem)
     stages = Stages(no_progress)
-    level = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
-    figures = {friction: values_of(level, problem, friction) for friction in scene.load.friction}
-    return figures, level.solution.pressure
+    levels = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
+    figures = {friction: values_of(level, problem) for friction, level in levels.items()}
+    return figures, levels[scene.load.friction[0]].solution.pressure
 
 
 def _solve_batch(

@@ -106,15 +106,14 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     problem, wanted = solved.problem, solved.problem.scene.statistics
     summits = [_flat(asdict(r)) for r in summit_rows(problem.surface.profile, wanted.cutoffs)]
     series = [_series_of("summits", summits), _series_of("loads", *tasks.result(NAME))]
-    for name, run in solved.runs.items():
+    for name in solved.runs:
         stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
         worst = max(figure.numerical for figure in stated)
-        for level in run.finest.by_friction:
+        for at, level in solved.contacts(name):
             patches = patch_rows(problem, level)
             numbers = (name for name, value in patches[0].items() if isinstance(value, float))
             sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
             table = _series_of("patches", patches, sizes, name)
-            at = {} if level.friction is None else {"friction": level.friction}
             series.append(replace(table, at=at))
     series.append(Series("traces", {"traces": Column((wanted.traces,))}))
     return Findings(series=tuple(series))

@@ -13,8 +13,8 @@ from rich.console import Console
 from comparisons.campaigns import robustness
 from comparisons.campaigns.cases import (
     ENDED,
-    Case,
     Row,
+    Trial,
     answers_of,
     bounded,
     carry_out,
@@ -34,15 +34,15 @@ def figure(value: float, high: float = 1.0, low: float = 0.0) -> Figure:
     return bounded("error", value, high, "the exact one", low, "a note")
 
 
-def case(*figures: Figure, name: str = "made") -> Case:
-    return Case("tests", name, "half_plane", partial(tuple, figures))
+def case(*figures: Figure, name: str = "made") -> Trial:
+    return Trial("tests", name, "half_plane", partial(tuple, figures))
 
 
 def failing() -> None:
     raise ArithmeticError("no\nsolution [bold]")
 
 
-RAISES = Case("tests", "raises", "finite_element", failing)
+RAISES = Trial("tests", "raises", "finite_element", failing)
 
 
 def row(*figures: Figure) -> Row:
@@ -79,14 +79,14 @@ def test_a_case_that_ends_its_process_is_a_row(monkeypatch):
     monkeypatch.setattr(tasks, "cores", lambda: 2)
     for worth in ("WORTH_A_FORK", "WORTH_A_START"):
         monkeypatch.setattr(tasks, worth, 0.0)
-    deadly = Case("tests", "deadly", "half_plane", partial(os._exit, 3))
+    deadly = Trial("tests", "deadly", "half_plane", partial(os._exit, 3))
     assert [row.fault for row in rows_of([deadly, case(figure(0.5))])] == [ENDED, None]
 
 
 def test_what_is_kept_of_a_stopped_command_is_not_computed_again(tmp_path):
     good = case(figure(0.5))
     (first,) = rows_of([good], kept=answers_of(tmp_path, "verify", [good]))
-    again = Case(good.group, good.name, good.model, failing)
+    again = Trial(good.group, good.name, good.model, failing)
     (row,) = rows_of([again], kept=answers_of(tmp_path, "verify", [again]))
     assert row.figures == first.figures and row.holds
     assert answers_of(tmp_path, "verify", [good, RAISES]).load("1") is None  # of other cases

@@ -13,10 +13,22 @@ from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging import coupling
-from comparisons.judging.coupling import BEYOND_THE_END, SHIFT, Change, couplings
+from comparisons.judging.coupling import (
+    BEYOND_THE_END,
+    SHIFT,
+    Change,
+    Coupling,
+    couplings,
+)
 from comparisons.judging.effects.estimates import estimates
-from comparisons.judging.study import WHY_NOT, Run
+from comparisons.judging.study import (
+    WHY_NOT,
+    Case,
+    Run,
+    Solved,
+)
 from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
 
 DATA_F = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
 REFERENCES = [
@@ -50,6 +62,13 @@ def solved(tables: dict, **load) -> Run:
 def half_plane_of(problem) -> ModelRun:
     levels = (half_plane_at(problem, pitch) for pitch in problem.pitches)
     return ModelRun("half_plane", tuple(levels))
+
+
+def change_of(problem: Problem, levels: ModelRun) -> Coupling:
+    """What coupling changes in a solved half-plane."""
+    case = Case(problem, {"half_plane": levels})
+    [change] = couplings(Solved(problem, None, None, (case,)), no_progress)
+    return change
 
 
 def estimate(problem, couplings_of) -> dict | None:
@@ -136,7 +155,7 @@ class TestFigures:
         moved = {"tau1_max_depth": 3e-5, "contact_length": 0.0, "peak_pressure": 3.0}
         answers = iter([moved, still])
         with patch.object(coupling, "values_of", lambda *_: next(answers)):
-            changes = coupling._changes(problem, level, level, 0.3)
+            changes = coupling._changes(problem, level, level)
         assert changes["tau1_max_depth"] == Change(3e-5, None)
         assert changes["contact_length"] == Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
@@ -209,7 +228,7 @@ class TestRoughBody:
         return replace(problem, surface=replace(problem.surface, profile=short))
 
     def test_change_under_a_hardness(self, wavy):
-        [result] = couplings(*wavy[::-1], None, no_progress)
+        result = change_of(*wavy)
         assert result.converged
         assert result.changes["peak_pressure"].value <= 4e9
         assert result.changes[SHIFT].value < 0.0
@@ -217,9 +236,9 @@ class TestRoughBody:
     def test_a_trace_that_ends_on_one_side_changes_nothing(self, wavy):
         """The grid is extended where there is a trace, here behind the contact only."""
         problem, levels = wavy
-        [one] = couplings(levels, problem, None, no_progress)
+        one = change_of(problem, levels)
         ended = self.cut(problem, -np.inf, levels.finest.grid.x[-1] + 2e-6)
-        [other] = couplings(levels, ended, None, no_progress)
+        other = change_of(ended, levels)
         for name, change in one.changes.items():
             assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -227,12 +246,12 @@ class TestRoughBody:
         """The first stretches are too short for it."""
         problem = problem_of(STRONG, friction=1.5)
         levels = half_plane_of(problem)
-        [expected] = couplings(levels, problem, None, no_progress)
+        expected = change_of(problem, levels)
         stretched = coupling._stretched
         monkeypatch.setattr(
             coupling, "_stretched", lambda p, g, more: stretched(p, g, 1 + more // 64)
         )
-        [result] = couplings(levels, problem, None, no_progress)
+        result = change_of(problem, levels)
         for name, change in expected.changes.items():
             assert result.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -248,7 +267,7 @@ class TestRoughBody:
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(levels, levels=(replace(level, grid=grid, solution=solution),))
-        [result] = couplings(ending, ended, None, no_progress)
+        result = change_of(ended, ending)
         assert result.changes == {} and result.why == BEYOND_THE_END
 
 

@@ -14,6 +14,7 @@ from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
 from comparisons.judging.effects.catalogue import COUPLED
 from comparisons.judging.ladder.operators import CAP, carried, operator_level, words_of
+from comparisons.judging.study import Case, Solved
 from comparisons.judging.yielding import flow_assessment
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import ModelRun
@@ -36,7 +37,7 @@ def test_exact_layers(case):
     posed = problem(tables)
     exact, half_width = known["peak_pressure"], 0.5 * known["contact_length"]
     for pitch, close in ((posed.pitches[0], 6e-4), (posed.pitches[2], 4e-5)):
-        level = operator_level(posed, frozenset({"finite_size"}), (0.0,), pitch, None)
+        [level] = operator_level(posed, frozenset({"finite_size"}), (0.0,), pitch, None).values()
         assert level.solution.converged
         assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
         assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
@@ -51,7 +52,7 @@ def test_westergaard_s_wave(mean_pressure):
     posed = problem(Scene.read("periodic").tables | {"load": {"mean_pressure": mean_pressure}})
     exact, off = closed_form(posed), []
     for pitch in (posed.pitches[0], posed.pitches[2]):
-        level = operator_level(posed, frozenset(), (0.0,), pitch, None)
+        [level] = operator_level(posed, frozenset(), (0.0,), pitch, None).values()
         off.append(level.solution.pressure.max() / exact.peak_pressure - 1.0)
         assert abs(level.contact_length - exact.contact_length) < 0.2 * pitch
     assert off[1] < 1.5e-4 and 12.0 < off[0] / off[1] < 22.0
@@ -62,12 +63,12 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | FIELD | {"coating": coating})
     window, pitch = window_of(posed), posed.pitches[0]
-    coated = operator_level(posed, frozenset({"coating"}), (0.3,), pitch, window)
+    [coated] = operator_level(posed, frozenset({"coating"}), (0.3,), pitch, window).values()
     plain = half_plane_at(posed, pitch, fields=True)
     assert coated.solution.pressure == pytest.approx(
         plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
     )
-    one, other = coated.stress(0.3), plain.stress(0.3)
+    one, other = coated.stress, plain.stress
     for name in ("tau1", "txz", "von_mises"):
         assert one.extremes[name].value == pytest.approx(other.extremes[name].value, rel=1e-6)
 
@@ -79,9 +80,9 @@ def test_traction_moves_both_surfaces_of_a_coated_body(softer):
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | {"roller": roller, "coating": coating})
     pitch, size = posed.pitches[0], 0.3 * posed.dundurs_beta
-    coated = operator_level(posed, frozenset({"coating", COUPLED}), (0.3,), pitch, None)
-    moved = half_plane_on(posed, posed.grid(pitch), size, (0.3,), None, Stages())
-    still = half_plane_on(posed, posed.grid(pitch), 0.0, (0.3,), None, Stages())
+    [coated] = operator_level(posed, frozenset({"coating", COUPLED}), (0.3,), pitch, None).values()
+    [moved] = half_plane_on(posed, posed.grid(pitch), size, (0.3,), None, Stages()).values()
+    [still] = half_plane_on(posed, posed.grid(pitch), 0.0, (0.3,), None, Stages()).values()
     peak = posed.hertz.peak_pressure
     assert coated.solution.pressure == pytest.approx(moved.solution.pressure, abs=1e-7 * peak)
     assert np.abs(moved.solution.pressure - still.solution.pressure).max() > 1e-3 * peak
@@ -92,12 +93,12 @@ def test_what_an_operator_carries():
     highest = problem(BODIES).hertz.peak_pressure
     body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
     posed = problem(BODIES | {"body": body})
-    level = half_plane_at(posed)
-    flow = flow_assessment(posed, {"half_plane": ModelRun("half_plane", (level,))})
+    runs = {"half_plane": ModelRun("half_plane", (half_plane_at(posed),))}
+    flow = flow_assessment(Solved(posed, None, None, (Case(posed, runs),)))
     held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
     assert held == {"finite_size", COUPLED, CAP}
     assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"
-    capped = operator_level(posed, frozenset({CAP}), (0.0,), posed.pitches[0], None)
+    [capped] = operator_level(posed, frozenset({CAP}), (0.0,), posed.pitches[0], None).values()
     pressure = capped.solution.pressure
     assert pressure.max() == pytest.approx(0.9 * highest)
 
@@ -111,7 +112,9 @@ def test_waves_of_a_finished_map(place):
     values = {content[axis]["group"]: point[axis] for axis in "xy"}
     posed = problem_of(scene_with(Scene.of(content["scene"], Origin("map")), values))
     held, pitch = frozenset({"exact_circle", "finite_strain"}), posed.pitches[0]
-    level = operator_level(posed, held, (0.0,), pitch / 2.0 ** (point["levels"] - 1), None)
+    [level] = operator_level(
+        posed, held, (0.0,), pitch / 2.0 ** (point["levels"] - 1), None
+    ).values()
     peak = level.solution.pressure.max()
     known = point["quantities"]["peak_pressure"]
     error = peak / known["finite_element"] - 1.0

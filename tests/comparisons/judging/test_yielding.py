@@ -133,4 +133,4 @@ def test_shakedown_is_said_beside_a_yield_stress(smooth_outcome, finish):
     assert over == pytest.approx(3.0**0.5 * peak / 1e9)
     rows = {row[0]: row[1] for row in flow_table(outcome).rows}
     assert rows["elastic shakedown up to"] == "4.00"
-    assert flow_assessment(smooth_outcome.problem, outcome.runs).ratio is None
+    assert flow_assessment(smooth_outcome.solved).ratio is None

@@ -7,7 +7,7 @@ from scenes import PROJECT, STEEL, changed, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import Solved
+from comparisons.judging.study import unsolved
 from comparisons.models.forecast import forecast
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -37,7 +37,7 @@ def test_as_many_levels_as_the_run_then_has(count):
     _, _, whole = planned(budget={"time": 60.0, "effects": False})
     time = 1.15 * sum(level.seconds for level in whole.levels[:count])
     posed, plan, cast = planned(budget={"time": time, "effects": False})
-    solved = refined(Solved(posed, plan, None, {}), Tasks())
+    solved = refined(unsolved(posed, plan), Tasks())
     levels, stop = solved.runs["finite_element"].levels, solved.refinement
     assert len(levels) == len(cast.levels) == count
     assert "budget.time" in stop and "budget.time" in cast.ends

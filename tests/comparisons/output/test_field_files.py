@@ -15,6 +15,7 @@ from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.half_plane import stresses_at
+from comparisons.output.arrays import levels_by_folder
 from comparisons.output.field_files import (
     CELL_TYPES,
     COMPONENTS,
@@ -40,7 +41,7 @@ def outcome(finish):
 
 @pytest.fixture(params=MODELS)
 def field(outcome, request):
-    return field_of(outcome, outcome.runs[request.param].finest)
+    return field_of(outcome, levels_by_folder(outcome)[request.param])
 
 
 def quietly(program: str, *arguments: object) -> str:
@@ -82,9 +83,9 @@ for path in sys.argv[1:]:
 
 def test_files_open_without_a_word_of_complaint(outcome, tmp_path, capfd):
     paths = []
-    for model, run in outcome.runs.items():
+    for model, levels in levels_by_folder(outcome).items():
         paths.append(tmp_path / f"{model}.vtu")
-        write_field(paths[-1], field_of(outcome, run.finest))
+        write_field(paths[-1], field_of(outcome, levels))
     write_mesh(tmp_path / "mesh.msh", outcome, outcome.runs["finite_element"].finest.mesh)
     # meshio takes every .msh for one of Ansys first, and prints that reader's empty complaint
     assert quietly(OPENED, *paths, tmp_path / "mesh.msh").strip() == ""
@@ -148,8 +149,7 @@ def test_principal_directions_diagonalise_the_stress(field):
 
 def test_one_file_holds_both_models_and_their_difference(outcome):
     """At the finite elements' nodes, against Hertz's closed form between the nodes of pressure."""
-    problem, run = outcome.problem, outcome.runs["finite_element"]
-    field = field_of(outcome, run.finest)
+    problem, field = outcome.problem, field_of(outcome, levels_by_folder(outcome)["finite_element"])
     x, z, _ = field.points.T
     hertz = hertz_from_load(problem.hertz.load_per_length, 0.01, problem.modulus)
     for friction in (0.0, 0.1):
@@ -170,10 +170,10 @@ def test_one_file_holds_both_models_and_their_difference(outcome):
 def test_numbers_are_as_fine_as_said(outcome, model, name, finest, coarsest):
     """Single precision, and 17 bits on a mesh: no coarser, and no larger in a file."""
     level = outcome.runs[model].finest
-    field, mesh = field_of(outcome, level), level.field_on_mesh
+    field, mesh = field_of(outcome, levels_by_folder(outcome)[model]), level.field_on_mesh
     mesh = mesh and mesh.at_corners
     assert {a.dtype for a in (field.points, *field.arrays.values())} == {np.dtype(np.float32)}
-    exact = level.stress(0.0).field.sz.ravel() if mesh is None else mesh.displacement[0.0]
+    exact = level.stress.field.sz.ravel() if mesh is None else mesh.displacement[0.0]
     written = field.arrays[f"{name} (friction 0)"]
     written = written if mesh is None else written[:, :2]
     there = exact != 0.0
@@ -189,7 +189,7 @@ def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
 
 
 def test_displacements_are_those_of_the_mesh_in_its_plane(outcome):
-    field = field_of(outcome, outcome.runs["finite_element"].finest)
+    field = field_of(outcome, levels_by_folder(outcome)["finite_element"])
     for friction in ("0", "0.1"):
         moved = field.arrays[f"displacement (friction {friction})"]
         assert moved == pytest.approx(1e-3 * field.points[:, [1, 0, 2]], rel=1e-5)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scenes import SMOOTH, problem
 
-from comparisons.campaigns.cases import Case, answers_of, carry_out
+from comparisons.campaigns.cases import Trial, answers_of, carry_out
 from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
 from comparisons.common.progress import no_progress
@@ -32,7 +32,7 @@ def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
 
 def test_the_end_of_another_command_leaves_levels_alone(tmp_path, smooth_outcome):
     """Into the folder of a run that was stopped; and the end of that run the other's answers."""
-    out, cases = tmp_path / "out", [Case("tests", "nothing", "half_plane", tuple)]
+    out, cases = tmp_path / "out", [Trial("tests", "nothing", "half_plane", tuple)]
     levels = level_cache(out, smooth_outcome.problem, smooth_outcome.plan)
     levels.save("first", smooth_outcome.runs["half_plane"].levels[0])
     carry_out("stability", cases, out, None, no_progress)

@@ -56,9 +56,9 @@ def wave():
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_both_models_are_westergaards_within_what_they_state(wave, model, friction):
-    exact, levels = closed_form(wave.problem), wave.runs[model]
-    stated = uncertainties(levels, wave.problem, friction)
-    known = values_of(levels.finest, wave.problem, friction)
+    exact, levels = closed_form(wave.problem), wave.solved.case(friction).runs[model]
+    stated = uncertainties(levels, wave.problem)
+    known = values_of(levels.finest, wave.problem)
     largest = exact.extremes(friction)
     for name, value in {
         "peak_pressure": exact.peak_pressure,
@@ -88,8 +88,8 @@ def test_pressures_and_gap_are_westergaards(wave, model):
 def test_fields_are_westergaards(wave, friction):
     exact, window = closed_form(wave.problem), wave.window
     field = exact.stress(window.x, window.z[:, None], friction).tau1
-    for run_of_model in wave.runs.values():
-        known = run_of_model.finest.stress(friction).tau1
+    for levels in wave.solved.case(friction).runs.values():
+        known = levels.finest.stress.tau1
         assert np.abs(known - field).max() < 2e-2 * exact.peak_pressure
         deep = window.z > 0.1 * PERIOD
         assert np.abs(known - field)[deep].max() < 1e-3 * exact.peak_pressure
@@ -122,7 +122,7 @@ def test_where_the_period_is_cut_changes_nothing():
         levels.append((posed, half_plane_at(posed)))
     (first, one), (second, other) = levels
     assert other.patches[-1, 0] < 0.5 * PERIOD < other.patches[-1, 1]
-    alike, again = values_of(one, first, 0.0), values_of(other, second, 0.0)
+    alike, again = values_of(one, first), values_of(other, second)
     assert again["peak_pressure"] == pytest.approx(alike["peak_pressure"], rel=2e-3)
     assert again["contact_length"] == pytest.approx(alike["contact_length"], rel=1e-2)
 

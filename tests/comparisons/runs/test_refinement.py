@@ -10,7 +10,7 @@ from scenes import SMOOTH, problem
 from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import Solved
+from comparisons.judging.study import unsolved
 from comparisons.models.finite_element import level
 from comparisons.models.half_plane import expected_with, half_plane_level
 from comparisons.models.plan import make_plan
@@ -23,7 +23,7 @@ def half_plane(**budget):
     """The half-plane on ever finer levels, and why they ended: none is fine enough."""
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}, "budget": budget})
     plan = make_plan(made, ("half_plane",))
-    solved = refined(Solved(made, plan, None, {}), Tasks())
+    solved = refined(unsolved(made, plan), Tasks())
     return solved.runs["half_plane"], solved.refinement
 
 
@@ -79,7 +79,7 @@ def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
 
     def solved(finest):
         monkeypatch.setattr(level, "finite_element_level", partial(solve, finest))
-        return refined(Solved(made, make_plan(made, MODELS), None, {}), Tasks())
+        return refined(unsolved(made, make_plan(made, MODELS)), Tasks())
 
     runs = solved(3)
     assert {name: len(run.levels) for name, run in runs.runs.items()} == dict.fromkeys(MODELS, 2)

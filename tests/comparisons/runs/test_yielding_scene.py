@@ -108,10 +108,10 @@ def test_increments_have_an_uncertainty_of_their_own(outcome):
     posed, elements = outcome.problem, outcome.runs["finite_element"]
     pitch = elements.finest.grid.pitch
     level = finite_elements(posed, pitch, fields=True, travel=0.25)
-    stated = uncertainties(elements, posed, 0.0)
-    reached = values_of(elements.finest, posed, 0.0)
+    stated = uncertainties(elements, posed)
+    reached = values_of(elements.finest, posed)
     edge = length_resolution(pitch, 1) / elements.finest.contact_length
-    moved_to = values_of(level, posed, 0.0)
+    moved_to = values_of(level, posed)
     # the depth of the maximum jumps on so coarse a mesh
     for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
         moved = abs(moved_to[name] - reached[name]) / abs(reached[name])
@@ -205,7 +205,7 @@ def test_a_turned_metal_flows_below_an_elastic_roller():
     posed = problem(TURNED)
     plan = make_plan(posed, ("finite_element",))
     coarse = Refinement(posed.pitches[0], travel=4.0)
-    level = finite_element_level(posed, plan, coarse, None, Stages())
+    [level] = finite_element_level(posed, plan, coarse, None, Stages()).values()
     solution = level.solution
     assert solution.converged and solution.residuals.worst < 1e-11
     cost = expected(posed, plan, coarse, flowing_contact(posed))

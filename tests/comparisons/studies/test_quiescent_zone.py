@@ -128,7 +128,7 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     posed = problem(other)
     window = window_of(posed)
     level = half_plane_at(posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, fields=True)
-    zone = q.zone_of(posed, level, window, 0.0)
+    zone = q.zone_of(posed, level, window)
     a = posed.hertz.half_width
     for name in q.QUANTITIES:
         value, place = stated[name].value, "depth" in name or name in ("start", "stop")
@@ -141,7 +141,8 @@ def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
     """Of the same levels, whose ratio is as far from a bound as it is uncertain, or farther."""
     ratio = q.zones_of(wavy.findings[q.NAME])[0].figures["ratio"]
     size = ratio.numerical * ratio.scale
-    posed = wavy.problem, wavy.runs["half_plane"], wavy.window, 0.0
+    case = wavy.solved.case(0.0)
+    posed = case, case.runs["half_plane"], wavy.window
     for off, state in ((0.5, q.UNCLEAR), (3.0, q.QUIESCENT)):
         monkeypatch.setattr(q, "QUIET", ratio.value + off * size)
         assert q.zone_figures(*posed)[1] == state

@@ -94,7 +94,7 @@ def _shear(axes: "Axes", bar: "Axes", run: Run, across: tuple[float, float]) -> 
     """The last model's principal shear; its largest is marked where it lies between two x/a."""
     hertz, window, friction = run.problem.hertz, run.window, run.deciding_friction
     [*_, last] = run.levels(friction).values()
-    stress = last.stress(friction)
+    stress = last.stress
     field, place = stress.field.tau1 / hertz.peak_pressure, stress.extremes["tau1"]
     mark = place.x / hertz.half_width, place.z / hertz.half_width
     mark = mark if across[0] <= mark[0] <= across[1] else None
@@ -108,7 +108,7 @@ def _largest(run: Run) -> str:
     """Whose principal shear is drawn, and how large it is by the first model and by it."""
     friction, p0 = run.deciding_friction, run.problem.hertz.peak_pressure
     largest = {
-        name: significant(level.stress(friction).extremes["tau1"].value / p0, 3)
+        name: significant(level.stress.extremes["tau1"].value / p0, 3)
         for name, level in run.levels(friction).items()
     }
     [*others, last] = largest

@@ -91,7 +91,7 @@ def _pictures(
     x, z = window.x / hertz.half_width, window.z[:rows] / hertz.half_width
     fields = [
         {
-            name: getattr(level.stress(friction).field, component.name)[:rows] / hertz.peak_pressure
+            name: getattr(level.stress.field, component.name)[:rows] / hertz.peak_pressure
             for name, level in run.pair(friction).items()
         }
         for friction in frictions
@@ -145,7 +145,7 @@ def _panel(
     """The field of models, of the last where there are several, under its largest value, which is
     marked where it is inside."""
     hertz, level = run.problem.hertz, run.pair(friction)[names[-1]]
-    extreme = level.stress(friction).extremes[component.name]
+    extreme = level.stress.extremes[component.name]
     mark = extreme.x / hertz.half_width, extreme.z / hertz.half_width
     largest = f"largest |{component.symbol}|" if component.signed else "largest"
     largest += f" {significant(abs(extreme.value) / hertz.peak_pressure)} p₀"
@@ -285,7 +285,7 @@ def _curves(run: Run, friction: float, column: int) -> dict[str, Curve]:
     """Every model's over z/a."""
     hertz, levels = run.problem.hertz, run.levels(friction)
     z, p0 = run.window.z / hertz.half_width, hertz.peak_pressure
-    fields = {name: level.stress(friction).field for name, level in levels.items()}
+    fields = {name: level.stress.field for name, level in levels.items()}
     return {name: (z, field.tau1[:, column] / p0) for name, field in fields.items()}
 
 

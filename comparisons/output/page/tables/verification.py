@@ -163,7 +163,9 @@ def _of_model(run: Run, model: ModelRun) -> TextTable:
     ]
     rows = [row + ("",) * (len(head) - len(row)) for row in rows]
     for name, figure in _rows(run, contact.NAME, model.name):
-        checked = {} if check is None else contact.values_of(check, run.problem, figure.friction)
+        case = run.solved.case(figure.friction)
+        check = case.runs[model.name].far_boundary_check
+        checked = {} if check is None else contact.values_of(check, case.problem)
         values = [*figure.levels, *([checked[figure.quantity]] if checked else [])]
         rows.append((name, *_texts(figure, values), *_parts(figure, model)))
     return TextTable(LABELS[model.name].capitalize(), head, tuple(rows))

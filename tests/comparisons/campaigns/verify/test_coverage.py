@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from comparisons.campaigns.cases import Case, Row, holds, junit_of
+from comparisons.campaigns.cases import Row, Trial, holds, junit_of
 from comparisons.campaigns.verify.coverage import (
     Pair,
     compared,
@@ -40,7 +40,7 @@ def row(
     more = {"scale": 2.0, "uncertainty": uncertainty, "levels": levels}
     figure = Figure("contact", "contact_length", "half_plane", levels[-1], **more)
     figures = compared(replace(figure, **fields), 2.0, "source", kind, converged)
-    case = Case(kind, "case <&>", "half_plane", lambda: figures)
+    case = Trial(kind, "case <&>", "half_plane", lambda: figures)
     return Row(case, figures, None, 0.0)
 
 

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 from comparisons import cli
-from comparisons.campaigns.cases import Case
+from comparisons.campaigns.cases import Trial
 from comparisons.campaigns.verify import run
 from comparisons.campaigns.verify.coverage import FEWEST_ROUGH, LEAST_COVERAGE, PRESSURE, pairs_of
 from comparisons.campaigns.verify.independent_solver import independent_cases
@@ -48,7 +48,7 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
     return verify(folder / "out", junit, cases=cases, fewest=(60, 10)), folder
 
 
-def half_plane_cases(count: int | None = None) -> list[Case]:
+def half_plane_cases(count: int | None = None) -> list[Trial]:
     return scene_cases(half_plane_scenes(rounds=1)[:count])
 
 

@@ -15,6 +15,7 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.model_error.contributions import EffectContributions
 from comparisons.judging.model_error.model_error import ModelError, Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.study import Case
 
 PLACES = np.array([-30e-6, 0.0, 40e-6])
 MODULE = "comparisons.judging.model_error.model_error"
@@ -49,14 +50,14 @@ def errors(
     stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
     with patch.multiple(
         MODULE,
-        quantities_of=lambda level, problem, friction: level.values,
+        quantities_of=lambda level, problem: level.values,
         values_of=lambda level, *of: level.values.largest(),
         uncertainties=lambda *arguments: stated,
         iteration=lambda *solutions: 0.0,
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):
-        solutions = Solutions(problem, runs, history, rows[0].friction)
+        solutions = Solutions(Case(problem, runs), tuple(history))
         if read is not None:
             return {row.quantity: read(solutions, row.quantity) for row in rows}
         return {row.quantity: solutions.error(row) for row in rows}

@@ -36,7 +36,7 @@ def solved_with():
     def solved(law: Law) -> dict[str, float]:
         if law not in known:
             posed = problem(scene(lawed(law), finite_element=STRAIN))
-            known[law] = values_of(finite_elements(posed), posed, 0.0)
+            known[law] = values_of(finite_elements(posed), posed)
         return known[law]
 
     return solved

@@ -9,10 +9,13 @@ from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.tasks import LATER, PERHAPS, Tasks
 from comparisons.figures.figure import is_decided
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.comparison import compared
+from comparisons.judging import comparison
 from comparisons.judging.model_error import study as model_error
 from comparisons.judging.model_error.error_budget import error_budget
-from comparisons.judging.study import Solved
+from comparisons.judging.study import (
+    Solved,
+    unsolved,
+)
 from comparisons.judging.verdict.headline import validity
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
@@ -50,8 +53,8 @@ def budgets(problem_with, tmp_path_factory):
         problem = problem_with(**(SMALL | SCENES[name]))
         plan = make_plan(problem, MODELS)
         cache = Cache(tmp_path_factory.mktemp("levels"), name, kinds_of(Level))
-        solved = refined(Solved(problem, plan, None, {}), Tasks(kept=cache))
-        rows, results = compared(problem, solved.runs, None), []
+        solved = refined(unsolved(problem, plan), Tasks(kept=cache))
+        rows, results = comparison.solve(solved, {}, None).figures, []
         for effects in (True, "all"):
             scene = problem.scene.unchecked({"budget.effects": effects})
             posed = replace(solved, problem=replace(problem, scene=scene))
@@ -121,6 +124,6 @@ def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
     def begin(solved: Solved) -> None:
         model_error.begin(solved, tasks)
 
-    refined(Solved(problem, plan, None, {}), tasks, begin)
+    refined(unsolved(problem, plan), tasks, begin)
     wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
     assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]

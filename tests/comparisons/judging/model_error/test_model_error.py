@@ -195,7 +195,7 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
     budget = outcome.data("model_error")
     assert budget.unsplit == "no mesh is possible" and budget.levels >= 2
     row = outcome.figures.one(study="comparison", quantity="peak_pressure")
-    stated, whole = budget.of("peak_pressure", 0.0), budget.wholes[0.0]
+    stated, whole = budget.of("peak_pressure", 0.0), budget.wholes[0]
     assert stated.effects == {} and stated.interaction == 0.0
     assert "finite_strain" in budget.selection.added
     levels = outcome.runs["half_plane"].levels  # that on the same pressure elements

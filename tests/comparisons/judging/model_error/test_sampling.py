@@ -10,7 +10,9 @@ from comparisons.common.tasks import Tasks
 from comparisons.judging.contact import values_of
 from comparisons.judging.effects.sampling import sampling_changes
 from comparisons.judging.model_error.show import not_modelled_line
+from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
+from comparisons.models.level import ModelRun
 from comparisons.models.problem import Levels
 from comparisons.output.result_json import content_of, read_content, result_of
 
@@ -36,8 +38,9 @@ def pressed(problem_with, tmp_path):
 
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
-    changes = sampling_changes(problem, None, levels, Tasks())
-    return values_of(levels[-1], problem, 0.0), changes
+    case = Case(problem, {"half_plane": ModelRun("half_plane", tuple(levels))})
+    changes = sampling_changes(Solved(problem, None, None, (case,)), Tasks())
+    return values_of(levels[-1], problem), changes
 
 
 @pytest.mark.parametrize("samples", [6, 9, 16])

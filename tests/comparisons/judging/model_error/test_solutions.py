@@ -20,7 +20,7 @@ from comparisons.judging.model_error.contributions import (
     split_variants,
 )
 from comparisons.judging.model_error.solutions import SolvedVariants
-from comparisons.judging.study import Solved
+from comparisons.judging.study import unsolved
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
 
@@ -33,11 +33,10 @@ def made(problem_with):
     """A small scene's variants, yet to be solved, by given tasks."""
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
-    runs = refined(Solved(problem, plan, None, {}), Tasks()).runs
-    finite, patches = runs["finite_element"], runs["half_plane"].finest.patches
+    solved = refined(unsolved(problem, plan), Tasks())
 
     def variants(tasks) -> SolvedVariants:
-        return SolvedVariants(problem, None, finite, tasks, patches)
+        return SolvedVariants(solved, tasks)
 
     return variants
 
@@ -58,7 +57,7 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     assert len(told) == 3 and len(split.all) == 4
     solved = {variant for variant, _, _ in shared.solved}
     assert solved == {*split.all} - {split.nothing}  # which is the scene's own
-    assert shared.finest(split.whole) is shared.wholes[split.whole] is not None
+    assert shared.finest(split.whole, 0.0) is shared.wholes[split.whole][0.0]
     one, two = (
         contributions_of(partial(bodies.solution, number=1, friction=0.0), split)
         for bodies in (alone, shared)

@@ -26,7 +26,12 @@ from comparisons.judging.effects.sampling import EFFECT as SAMPLING
 from comparisons.judging.model_error.account import NAME, ErrorBudget
 from comparisons.judging.model_error.error_budget import ASKED, selected_effects
 from comparisons.judging.model_error.model_error import ModelError
-from comparisons.judging.study import CONVERGED, Run, Solved
+from comparisons.judging.study import (
+    CONVERGED,
+    Case,
+    Run,
+    Solved,
+)
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.judging.verdict.next_step import Offer, next_of, pasted
 from comparisons.models.level import ModelRun
@@ -108,7 +113,8 @@ def stated(draw: random.Random, problem: Problem) -> Run:
     plan = make_plan(problem, MODELS if draw.random() < 0.95 else MODELS[:1])
     levels = (half_plane_at(problem),) * 2  # certain
     runs = {name: ModelRun(name, levels) for name in plan.models}
-    solved = Solved(problem, plan, None, runs)
+    cases = tuple(Case(problem.under(mu), runs) for mu in problem.scene.load.friction)
+    solved = Solved(problem, plan, None, cases)
     findings = {contact.NAME: contact.solve(solved, {}, None)}
     if draw.random() < 0.05:
         findings[contact.NAME] = Findings(statements=(Statement(CONVERGED, "no"),))

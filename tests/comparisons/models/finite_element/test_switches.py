@@ -115,8 +115,8 @@ def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisatio
     plan = make_plan(problem, ("finite_element",))
     body_cache, refinement = BodyCache(), Refinement(problem.pitches[0])
     first, second = Stages(), Stages()
-    one = finite_element_level(problem, plan, refinement, None, first, body_cache=body_cache)
-    other = finite_element_level(problem, plan, refinement, None, second, body_cache=body_cache)
+    how = problem, plan, refinement, None
+    one, other = (finite_element_level(*how, stages, body_cache)[0.0] for stages in (first, second))
     assert "factorisation" in first.seconds and "factorisation" not in second.seconds
     assert np.array_equal(one.solution.pressure, other.solution.pressure)
     held = Refinement(problem.pitches[0], half_block=True)
@@ -145,7 +145,7 @@ def test_finite_rotations_leave_the_surface_at_the_edge_of_contact_without_shear
     problem = problem_with(tables, {"deformation": "finite", "roller_shape": "circle"})
     level, window, hertz = finite_elements(problem, fields=True), window_of(problem), problem.hertz
     assert hertz.half_width / RADIUS == pytest.approx(0.184, abs=1e-3)
-    [stress] = level.stresses
+    stress = level.stress
     largest = stress.extremes["tau1"]
     assert largest.value / hertz.tau1_max == pytest.approx(1.023, abs=0.01)
     assert largest.z / hertz.half_width == pytest.approx(0.767, abs=0.02)

@@ -6,7 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import PROJECT, refound
+from scenes import (
+    PROJECT,
+    refound,
+    with_levels,
+)
 
 from comparisons.cli import app
 from comparisons.figures.quantity import COMPARED, MODELS, label
@@ -99,8 +103,7 @@ def capped(outcome: Run, one: float, other: float) -> Run:
         pressure[pressure.argmax()] = size * hardness
         finest = replace(run.finest, solution=replace(run.finest.solution, pressure=pressure))
         levels[name] = replace(run, levels=(*run.levels[:-1], finest))
-    solved = replace(outcome.solved, runs=levels)
-    figures = contact.solve(solved, {}, None).figures
+    figures = contact.solve(with_levels(outcome, levels).solved, {}, None).figures
     return refound(outcome, "contact", figures=figures)
 
 

@@ -21,17 +21,17 @@ MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
 def outcome(wavy_outcome: Run) -> Run:
     """At friction 0.1 the whole model has other pressures and stresses than the scene's own finite
     elements, on a coarser level; at friction 0 it is these."""
-    finite_element = wavy_outcome.runs["finite_element"]
+    finite_element = wavy_outcome.solved.case(0.1).runs["finite_element"]
     level = finite_element.levels[-2]
-    stress = level.stress(0.1)
+    stress = level.stress
     field = replace(stress.field, txz=1.25 * stress.field.txz)
     moved = HIGHER * np.roll(level.solution.pressure, MOVED)
     whole = replace(
         level,
         solution=replace(level.solution, pressure=moved),
-        stresses=(replace(stress, field=field),),
+        stress=replace(stress, field=field),
     )
-    wholes = {0.0: finite_element.finest, 0.1: whole}
+    wholes = wavy_outcome.solved.cases[0].runs["finite_element"].finest, whole
     budget = replace(wavy_outcome.data("model_error"), wholes=wholes)
     return budgeted(wavy_outcome, budget)
 
@@ -51,7 +51,7 @@ def test_a_whole_model_that_is_the_scenes_own_is_no_further_model(outcome: Run):
 
 def test_pressures_and_their_difference_are_those_of_the_whole(outcome, drawn_by, monkeypatch):
     monkeypatch.setattr(Run, "deciding_friction", 0.1)
-    p0, whole = outcome.problem.hertz.peak_pressure, outcome.data("model_error").wholes[0.1]
+    p0, whole = outcome.problem.hertz.peak_pressure, outcome.data("model_error").wholes[1]
     for figure in drawn_by(pressure_picture, outcome)[0]:
         above, difference, _ = figure.axes
         assert labels(above)[:3] == ["half-plane", "finite elements", "whole model, μ = 0.1"]
@@ -79,7 +79,7 @@ def test_it_is_saved(outcome: Run, tmp_path):
     folder = tmp_path / "run"
     write_files(replace(outcome, directory=folder), no_progress)
     rows = np.loadtxt(folder / "whole/contact.csv", delimiter=",", skiprows=3)
-    whole = outcome.data("model_error").wholes[0.1]
+    whole = outcome.data("model_error").wholes[1]
     assert rows[:, 1] == pytest.approx(whole.solution.pressure)
     assert (folder / "whole/stress.vtu").is_file()
     again = RunArrays.read(folder)
@@ -88,9 +88,10 @@ def test_it_is_saved(outcome: Run, tmp_path):
 
 @pytest.mark.usefixtures("undrawn")
 def test_further_frictions_have_folders_of_their_own(outcome: Run, tmp_path):
-    whole = outcome.data("model_error").wholes[0.1]
-    other = replace(whole, stresses=(replace(whole.stresses[0], friction=0.0),))
-    budget = replace(outcome.data("model_error"), wholes={0.0: other, 0.1: whole})
+    whole = outcome.data("model_error").wholes[1]
+    solution = replace(whole.solution, pressure=whole.solution.pressure.copy())
+    other = replace(whole, solution=solution)
+    budget = replace(outcome.data("model_error"), wholes=(other, whole))
     write_files(replace(budgeted(outcome, budget), directory=tmp_path / "run"), no_progress)
     names = {str(p.relative_to(tmp_path / "run")) for p in tmp_path.rglob("*") if p.is_file()}
     assert {"whole/stress.vtu", "whole/friction_0.1/stress.vtu"} <= names

@@ -9,7 +9,7 @@ from analytic.material import Law
 from analytic.material.hardening import Hardening
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import Solved
+from comparisons.judging.study import unsolved
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -133,10 +133,8 @@ def test_assumptions_say_what_is_dropped(as_written, said):
 def test_assumptions_are_those_of_the_run_that_was_made(added, said, unsaid):
     metal = {"yield_stress": 1e9, "hardening_modulus": 2e9}
     problem = problem_of(scene_of(ELASTIC, body=metal, profile=WAVE))
-    budget = SimpleNamespace(
-        wholes={0.2: None}, selection=SimpleNamespace(added=added, whole=added)
-    )
-    solved = Solved(problem, make_plan(problem, MODELS), None, {})
+    budget = SimpleNamespace(wholes=(None,), selection=SimpleNamespace(added=added, whole=added))
+    solved = unsolved(problem, make_plan(problem, MODELS))
     spoken = "\n".join(["", *assumed(solved, Findings(data=budget))])
     assert said in spoken and unsaid not in spoken
     assert "between samples the surface is a cubic spline" in spoken

@@ -10,7 +10,10 @@ from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import unsolved
+from comparisons.judging.study import (
+    Case,
+    unsolved,
+)
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.output.flat_csv import rows_of
@@ -176,7 +179,8 @@ def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
 def test_of_a_body_that_flows_the_half_plane_stands_alone():
     flows = {"finite_element": {"plastic": True}, "body": {"yield_stress": 2e9}}
     posed = problem(changed(SMOOTH, load={"friction": 0.3}, **flows))
-    solved = replace(unsolved(posed, make_plan(posed, MODELS)), runs=dict.fromkeys(MODELS))
+    case = Case(posed, dict.fromkeys(MODELS))
+    solved = replace(unsolved(posed, make_plan(posed, MODELS)), cases=(case,))
     assert tuple(solvers(solved)) == MODELS[:1]
 
 

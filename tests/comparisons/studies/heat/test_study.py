@@ -125,7 +125,7 @@ def test_thermal_stresses_by_both_models(stressed):
         assert abs(figure.value) < figure.numerical + 3e-3  # held 400 a away
         assert figure.numerical < 0.05
     assert tau1.verdict == depth.verdict == "agree"
-    shear = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
+    shear = stressed.solved.case(0.1).runs["half_plane"].finest.stress.extremes["tau1"]
     assert value(stressed, "tau1_heated_without_heat") == shear.value
     assert value(stressed, "tau1_depth_heated_without_heat") == shear.z
     # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back

@@ -125,7 +125,8 @@ def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
     def solve_all():
         tasks = Tasks(kept=kept)
         begin(scene, tasks)
-        return solve(replace(scene, runs={"half_plane": half_plane}), {}, tasks)
+        case = replace(scene.cases[0], runs={"half_plane": half_plane})
+        return solve(replace(scene, cases=(case,)), {}, tasks)
 
     first = solve_all()
     monkeypatch.setattr("comparisons.studies.scatter.study._solve_batch", None)

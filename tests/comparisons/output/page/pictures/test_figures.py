@@ -71,7 +71,7 @@ def test_sections_hold_both_fields_and_the_exact_smooth_one(wavy, wavy_outcome):
     whole = [axes for axes in through_edge.axes if axes.get_xlim()[1] > 0.5]
     for axes, friction in zip(whole, wavy_outcome.problem.scene.load.friction, strict=True):
         for name, label in (("half_plane", "half-plane"), ("finite_element", "finite elements")):
-            field = wavy_outcome.runs[name].finest.stress(friction).field
+            field = wavy_outcome.solved.case(friction).runs[name].finest.stress.field
             drawn = line(axes, label)
             assert drawn[:, 1] == pytest.approx(field.tau1[:, column] / hertz.peak_pressure)
             assert drawn[:, 0] == pytest.approx(window.z / hertz.half_width)

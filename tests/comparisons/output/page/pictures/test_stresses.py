@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import posed
+from scenes import (
+    with_levels,
+)
 from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.curves import COINCIDE
@@ -32,13 +34,13 @@ def test_fields_that_coincide_are_drawn_once(wavy_outcome: Run, drawn_by, apart:
     """Up to 1 %, or the uncertainty of what the largest shears differ by."""
     error = wavy_outcome.figures.one(study="model_error", quantity="tau1_max", friction=0.0)
     factor = 1.0 - apart * max(COINCIDE, error.numerical)
-    elements = wavy_outcome.pair(0.0)["finite_element"].stress(0.0).field
+    elements = wavy_outcome.pair(0.0)["finite_element"].stress.field
     run = wavy_outcome.runs["half_plane"]
-    stress, *others = run.finest.stresses
+    stress = run.finest.stress
     field = replace(elements, **{n: factor * getattr(elements, n) for n in ("sx", "sz", "txz")})
-    finest = replace(run.finest, stresses=(replace(stress, field=field), *others))
+    finest = replace(run.finest, stress=replace(stress, field=field))
     runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
-    [figure, *_], [made, *_] = drawn_by(field_pictures, posed(wavy_outcome, runs=runs))
+    [figure, *_], [made, *_] = drawn_by(field_pictures, with_levels(wavy_outcome, runs))
     alone = apart < 1.0
     assert len(scales_of(figure)) == (1 if alone else 2)
     assert ("both models: largest" in made.alternative) == alone
@@ -49,8 +51,7 @@ def test_fields_that_coincide_are_drawn_once(wavy_outcome: Run, drawn_by, apart:
 def test_fields_and_their_difference_are_those_of_the_run(wavy: dict[str, list], wavy_outcome: Run):
     hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
     one, other = (
-        run.finest.stress(0.0).field.tau1 / hertz.peak_pressure
-        for run in wavy_outcome.runs.values()
+        run.finest.stress.field.tau1 / hertz.peak_pressure for run in wavy_outcome.runs.values()
     )
     figure = wavy["field_pictures"][0]
     both, difference = scales_of(figure)

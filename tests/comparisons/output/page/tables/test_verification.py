@@ -20,7 +20,7 @@ def test_each_judged_figure_says_how_it_converged(wavy_outcome: Run):
     problem = wavy_outcome.problem
     assert len(rows) == len(table.rows)
     for model, name in (("half-plane", "half_plane"), ("finite elements", "finite_element")):
-        stated = uncertainties(wavy_outcome.runs[name], problem, problem.scene.load.friction[0])
+        stated = uncertainties(wavy_outcome.runs[name], problem)
         for quantity in ("peak_pressure", "contact_length"):
             row, known = rows[f"{label(quantity)}, {model}"], stated[quantity].convergence
             assert float(row["formal order"]) == QUANTITIES[quantity].formal_order
