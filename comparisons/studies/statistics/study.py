@@ -21,10 +21,10 @@ In: a scene with [statistics], and its solved models. Out: series, whose columns
               plastic or cutting, `radius` [m] that of the ridge that Hertz has it on,
               `plastic_strain` the largest below it where the model flows"""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import nullcontext, suppress
 from dataclasses import asdict, dataclass, replace
-from math import prod
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,14 +59,16 @@ NAME = "statistics"
 STEPS, PER_DECADE = 7, 2  # loads: from the scene's own down to a thousandth
 CUTOFFS, THINNED = (1.0, 2.0, 4.0, 8.0), (2, 4)  # shortest wavelengths; every so many samples
 QUANTILE = 0.975
+BY = ("moments", "peaks")  # summits: expected by moments of the spectrum, counted
 # Sum of the patches, load over it, and the half-width of the smooth contact with the same mean |x|
 # of the pressure.
 FIGURES = ("real_length", "mean_real_pressure", "effective_half_width")
 PRESSURE = "mean_real_pressure"
-UNITS = {"load": "N/m", **dict.fromkeys(("real_length", "effective_half_width", "half_width"), "m")}
-UNITS |= dict.fromkeys(("size", "radius", "deviation", "start", "stop"), "m")
-UNITS |= dict.fromkeys((PRESSURE, "peak", "even", "isotropic", "ridges"), "Pa")
-RATIOS = ("causes", "depth")  # tables without a unit
+# By the ends of the names of columns.
+UNITS = {"load": "N/m", **dict.fromkeys(("real_length", "half_width"), "m")}
+UNITS |= dict.fromkeys(("size", "radius", "deviation", "mean"), "m")
+UNITS |= {f"{k}.{by}.density": u for k, u in (("peaks", "1/m"), ("summits", "1/m²")) for by in BY}
+UNITS |= dict.fromkeys((PRESSURE, "even", "persson.isotropic", "persson.ridges"), "Pa")
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,16 @@ class SummitRow:
     rms_slope: float
     peaks: tuple[Summits, Summits | None]
     summits: tuple[Summits, Summits | None]
+
+    @property
+    def columns(self) -> dict[str, object]:
+        """Of its row in the series."""
+        columns = {name: getattr(self, name) for name in ("treatment", "size", "bandwidth")}
+        columns["rms_slope"] = self.rms_slope
+        for kind, (number, by) in product(("peaks", "summits"), enumerate(BY)):
+            if (known := getattr(self, kind)[number]) is not None:
+                columns |= {f"{kind}.{by}.{name}": v for name, v in asdict(known).items()}
+        return columns
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -104,44 +116,25 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Patches are as uncertain as the worst of their model's figures, which `before` has."""
     problem, wanted = solved.problem, solved.problem.scene.statistics
-    summits = [_flat(asdict(r)) for r in summit_rows(problem.surface.profile, wanted.cutoffs)]
-    series = [_series_of("summits", summits), _series_of("loads", *tasks.result(NAME))]
+    summits = [row.columns for row in summit_rows(problem.surface.profile, wanted.cutoffs)]
+    series = [_table("summits", summits), _table("loads", *tasks.result(NAME))]
     for name in solved.runs:
         stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
         worst = max(figure.numerical for figure in stated)
         for at, level in solved.contacts(name):
-            patches = patch_rows(problem, level)
-            numbers = (name for name, value in patches[0].items() if isinstance(value, float))
-            sizes = {name: [worst * abs(patch[name]) for patch in patches] for name in numbers}
-            table = _series_of("patches", patches, sizes, name)
-            series.append(replace(table, at=at))
+            series.append(Series("patches", patch_columns(problem, level, worst), name, at))
     series.append(Series("traces", {"traces": Column((wanted.traces,))}))
     return Findings(series=tuple(series))
 
 
-def _flat(content: Mapping[str, object], before: str = "") -> dict[str, object]:
-    """Nested tables as one, with dots in the names; pairs are by `moments` and by `peaks`."""
-    row: dict[str, object] = {}
-    for name, value in content.items():
-        if isinstance(value, tuple | list):
-            value = dict(zip(("moments", "peaks"), value, strict=True))
-        if isinstance(value, dict):
-            row |= _flat(value, f"{before}{name}.")
-        elif value is not None:
-            row[before + name] = value
-    return row
-
-
-def _series_of(
-    name: str,
-    rows: Sequence[Mapping[str, object]],
-    uncertainties: Mapping[str, Sequence[float]] = {},
-    source: str = "",
+def _table(
+    name: str, rows: list[dict[str, object]], uncertainties: Mapping[str, list[float]] = {}
 ) -> Series:
-    """Columns with their units, of rows that are flat."""
-    names = dict.fromkeys(name for row in rows for name in row if not name.startswith(RATIOS))
-    units = {name: UNITS.get(name.rpartition(".")[2], "") for name in names}
-    return Series(name, columns_of(rows, units, uncertainties), source)
+    columns = columns_of(rows, uncertainties=uncertainties)
+    for key, column in columns.items():
+        unit = next((unit for end, unit in UNITS.items() if key.endswith(end)), "")
+        columns[key] = replace(column, unit=unit)
+    return Series(name, columns)
 
 
 def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
@@ -166,29 +159,29 @@ def _summits(profile: Profile, treatment: str, size: float, strict: bool = False
     return SummitRow(treatment, size, moments.bandwidth, float(np.sqrt(moments.m2)), *by_both)
 
 
-def _cylinders(problem: Problem, load: float, row: SummitRow) -> "dict[str, RoughContact]":
+def _cylinders(problem: Problem, load: float, row: SummitRow) -> "list[RoughContact]":
+    """One by moments, one by counting."""
     from analytic.statistics.rough_bodies import rough_cylinder
 
-    radius, modulus = problem.scene.roller.radius, problem.modulus
-    cylinders = (rough_cylinder(load, radius, modulus, summits) for summits in row.summits)
-    return dict(zip(("moments", "peaks"), cylinders, strict=True))
+    radius = problem.scene.roller.radius
+    return [rough_cylinder(load, radius, problem.modulus, summits) for summits in row.summits]
 
 
 def _loads(
     here: Here, problem: Problem, summits: SummitRow
-) -> tuple[tuple[dict[str, float], ...], dict[str, tuple[float, ...]]]:
+) -> tuple[list[dict[str, float]], dict[str, list[float]]]:
     """A row a load, from the heaviest, and the uncertainties of some of their columns."""
     here.callback("half-plane: random traces")
     measured, wanted = problem.surface.profile, problem.scene.statistics
     traces = [same_spectrum(measured, wanted.seed + number) for number in range(wanted.traces)]
-    rows = []
+    rows, sizes = [], []
     for step in range(STEPS):
         load, pitch = _step(problem, step)
         pressed = [(measured, pitch), (measured, 0.5 * pitch), *((t, pitch) for t in traces)]
         solved = np.array([_pressed(problem, load, *trace) for trace in pressed])
-        rows.append(_row(problem, load, summits, solved))
-    sizes = {name: tuple(unsure[name] for _, unsure in rows) for name in rows[0][1]}
-    return tuple(row for row, _ in rows), sizes
+        row, unsure = _row(problem, load, summits, solved)
+        rows, sizes = [*rows, row], [*sizes, unsure]
+    return rows, {name: [of_load[name] for of_load in sizes] for name in sizes[0]}
 
 
 def _step(problem: Problem, step: int) -> tuple[float, float]:
@@ -233,75 +226,66 @@ def _row(
     (coarse, fine), random = solved[:2], solved[2:]
     mean, count = random.mean(axis=0), len(random)
     error = stdtrit(count - 1, QUANTILE) * random.std(axis=0, ddof=1) / np.sqrt(count)
-    cylinders, patches = _cylinders(problem, load, summits), float(mean[3])
+    cylinders = _cylinders(problem, load, summits)
+    first, patches = cylinders[0], mean[3]
+    isotropic, ridges = (
+        load / (2.0 * float(first.steps @ persson_fraction(first.pressure, modulus, rms)))
+        for rms in (np.sqrt(2.0) * slope, slope)
+    )
     ridge = hertz_from_load(load / patches, summits.peaks[0].radius, modulus)
-
-    def persson(slope: float) -> float:
-        first = cylinders["moments"]
-        share = persson_fraction(first.pressure, modulus, slope)
-        return load / (2.0 * float(first.steps @ share))
-
-    values = {
-        name: (load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width)
-        for name, c in cylinders.items()
-    }
-    values |= {"trace": tuple(map(float, fine[:3])), "random": tuple(map(float, mean[:3]))}
-    figures = {name: dict(zip(FIGURES, known, strict=True)) for name, known in values.items()}
-    pressures = {"isotropic": persson(np.sqrt(2.0) * slope), "ridges": persson(slope)}
-    isotropic, ridges = pressures.values()
-    theory, random_mean = (figures[name][PRESSURE] for name in ("moments", "random"))
-    factors = theory / isotropic, isotropic / ridges, ridges / random_mean
-    causes = dict(zip(("summits alone", "ridges", "few contacts"), factors, strict=True))
-    row = {
-        "load": load,
-        "half_width": hertz_from_load(load, radius, modulus).half_width,
-        "figures": figures,
-        "patches": patches,
-        "persson": pressures,
+    known = [
+        (load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width) for c in cylinders
+    ]
+    sources = dict(zip((*BY, "trace", "random"), (*known, fine, mean), strict=True))
+    row = {"load": load, "half_width": hertz_from_load(load, radius, modulus).half_width}
+    for source, figures in sources.items():
+        row |= {f"figures.{source}.{n}": float(v) for n, v in zip(FIGURES, figures, strict=False)}
+    theory, pressed = (row[f"figures.{source}.{PRESSURE}"] for source in ("moments", "random"))
+    row |= {
+        "patches": float(patches),
+        "persson.isotropic": isotropic,
+        "persson.ridges": ridges,
         "even": 0.25 * np.pi * ridge.peak_pressure,
-        "causes": causes,
-        "difference": prod(causes.values()) - 1.0,
+        "causes.summits alone": theory / isotropic,
+        "causes.ridges": isotropic / ridges,
+        "causes.few contacts": ridges / pressed,
+        "difference": theory / pressed - 1.0,
     }
-    shares = {"random": error / mean, "trace": coarse / fine - 1.0}
+    shares = {"random": error / mean, "trace": np.abs(coarse / fine - 1.0)}
     sizes = {
-        f"figures.{source}.{name}": abs(float(share) * figures[source][name])
+        f"figures.{source}.{name}": float(share) * row[f"figures.{source}.{name}"]
         for source, of_source in shares.items()
         for name, share in zip(FIGURES, of_source, strict=False)
     }
-    of_pressures = (abs(float(share[FIGURES.index(PRESSURE)])) for share in shares.values())
-    return _flat(row), sizes | {"difference": prod(causes.values()) * sum(of_pressures)}
+    unsure = sum(share[FIGURES.index(PRESSURE)] for share in shares.values())
+    return row, sizes | {"difference": theory / pressed * float(unsure)}
 
 
-def patch_rows(problem: Problem, level: Level) -> tuple[dict[str, object], ...]:
-    """Every patch of a level, from `start` to `stop` [m]: load [N/m], peak [Pa], and how deep it
-    is penetrated. Pressures belong to the nearest patch."""
-    patches, wanted, pressure = level.patches, problem.scene.statistics, level.solution.pressure
-    places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), level.grid.x)
-    load = np.bincount(places, level.grid.weights * pressure, len(patches))
-    peak = np.zeros(len(patches))
-    np.maximum.at(peak, places, pressure)
+def patch_columns(problem: Problem, level: Level, unsure: float) -> dict[str, Column]:
+    """Every patch of a level, from `start` to `stop`: load, peak, and how deep it is penetrated,
+    all `unsure` relative to themselves. Pressures belong to the nearest patch."""
+    (start, stop), wanted = level.patches.T, problem.scene.statistics
+    places = np.searchsorted(0.5 * (stop[:-1] + start[1:]), level.grid.x)
+    load = np.bincount(places, level.grid.weights * level.solution.pressure, len(start))
+    peak = np.zeros(len(start))
+    np.maximum.at(peak, places, level.solution.pressure)
     depth = relative_penetration(peak, problem.modulus)
-    rule = wanted.metal, wanted.lubricated
-    kinds = {
-        "book": contact_kind(depth["book"], depth["book"], *rule),
-        "exact": contact_kind(depth["sphere"], depth["ridge"], *rule),
-    }
+    radius = np.pi * problem.modulus * (stop - start) ** 2 / (16.0 * load)
+    values = {"start": start, "stop": stop, "load": load, "peak": peak, "radius": radius}
+    values |= {f"depth.{name}": share for name, share in depth.items()}
     field = level.mesh_field
-    flows = isinstance(field, MeshField) and STRAIN in field.others
-    rows = []
-    for k, (start, stop) in enumerate(patches):
-        row = {
-            "start": float(start),
-            "stop": float(stop),
-            "load": float(load[k]),
-            "peak": float(peak[k]),
-            "radius": float(np.pi * problem.modulus * (stop - start) ** 2 / (16.0 * load[k])),
-            "depth": {name: float(values[k]) for name, values in depth.items()},
-            "kinds": {name: str(values[k]) for name, values in kinds.items()},
-            "plastic_strain": _strain_below(field, start, stop) if flows else None,
-        }
-        rows.append(_flat(row))
-    return tuple(rows)
+    if isinstance(field, MeshField) and STRAIN in field.others:
+        values["plastic_strain"] = [_strain_below(field, *ends) for ends in level.patches]
+    units = {"start": "m", "stop": "m", "load": "N/m", "peak": "Pa", "radius": "m"}
+    columns = {}
+    for name, numbers in values.items():
+        numbers = tuple(map(float, numbers))
+        sizes = tuple(unsure * abs(number) for number in numbers)
+        columns[name] = Column(numbers, units.get(name, ""), sizes)
+    for how, flow, cut in (("book", "book", "book"), ("exact", "sphere", "ridge")):
+        kinds = contact_kind(depth[flow], depth[cut], wanted.metal, wanted.lubricated)
+        columns[f"kinds.{how}"] = Column(tuple(map(str, kinds)))
+    return columns
 
 
 def _strain_below(field: MeshField, start: float, stop: float) -> float:

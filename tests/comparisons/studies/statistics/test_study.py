@@ -11,6 +11,7 @@ from scenes import GROUND, SMOOTH, STEEL, as_toml, resolved, run_of
 from analytic.statistics.penetration import RIDGE
 from comparisons.cli import main
 from comparisons.common.errors import InputError
+from comparisons.figures.figure import Series
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
@@ -18,7 +19,7 @@ from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
-from comparisons.studies.statistics.study import patch_rows, summit_rows
+from comparisons.studies.statistics.study import patch_columns, summit_rows
 
 ROUGH = {
     "kind": "self-affine", "hurst": 0.8, "rms_slope": 0.05, "samples": 4097, "length": 4e-3,
@@ -151,7 +152,8 @@ class TestPatches:
         wanted = SimpleNamespace(metal="ferrous", lubricated=False)
         scene = done.problem.scene.unchecked({"statistics": wanted})
         level = done.runs["half_plane"].finest
-        [patch] = patch_rows(replace(done.problem, scene=scene), level)
+        columns = patch_columns(replace(done.problem, scene=scene), level, unsure=0.0)
+        [patch] = Series("patches", columns).rows()
         hertz = done.problem.hertz
         assert patch["radius"] == pytest.approx(hertz.radius, rel=1e-3)
         depth = (hertz.half_width / hertz.radius) ** 2
