@@ -23,8 +23,8 @@ In: a scene with [statistics], and its solved models. Out: series, whose columns
 
 from collections.abc import Mapping
 from contextlib import nullcontext, suppress
-from dataclasses import asdict, dataclass, replace
-from itertools import product
+from dataclasses import asdict, replace
+from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,12 +32,10 @@ from scipy.special import stdtrit
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
-from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
-from analytic.profile import Profile, surface
-from analytic.statistics.nominally_flat import Summits, persson_fraction
+from analytic.grid import HatGrid
+from analytic.profile import Profile
+from analytic.statistics.nominally_flat import persson_fraction
 from analytic.statistics.penetration import contact_kind, relative_penetration
 from analytic.statistics.summits import counted_peaks, spectral_moments, summits_of_peaks
 from analytic.surface.filters import filtered
@@ -50,7 +48,7 @@ from comparisons.judging import contact
 from comparisons.judging.study import Solved
 from comparisons.models.half_plane import expected_of
 from comparisons.models.level import STRAIN, Level, MeshField, refuse_too_large
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, half_plane_of, pressed_on
 
 if TYPE_CHECKING:
     from analytic.statistics.rough_bodies import RoughContact
@@ -59,39 +57,14 @@ NAME = "statistics"
 STEPS, PER_DECADE = 7, 2  # loads: from the scene's own down to a thousandth
 CUTOFFS, THINNED = (1.0, 2.0, 4.0, 8.0), (2, 4)  # shortest wavelengths; every so many samples
 QUANTILE = 0.975
-BY = ("moments", "peaks")  # summits: expected by moments of the spectrum, counted
 # Sum of the patches, load over it, and the half-width of the smooth contact with the same mean |x|
 # of the pressure.
 FIGURES = ("real_length", "mean_real_pressure", "effective_half_width")
 PRESSURE = "mean_real_pressure"
-# By the ends of the names of columns.
-UNITS = {"load": "N/m", **dict.fromkeys(("real_length", "half_width"), "m")}
-UNITS |= dict.fromkeys(("size", "radius", "deviation", "mean"), "m")
-UNITS |= {f"{k}.{by}.density": u for k, u in (("peaks", "1/m"), ("summits", "1/m²")) for by in BY}
-UNITS |= dict.fromkeys((PRESSURE, "even", "persson.isotropic", "persson.ridges"), "Pa")
-
-
-@dataclass(frozen=True)
-class SummitRow:
-    """Of the trace, filtered or thinned: its peaks, expected by moments and counted, and the
-    summits by either; the latter None where they are too few."""
-
-    treatment: str  # as pressed | cut-off | sampling
-    size: float  # [m] the cut-off or the sampling interval
-    bandwidth: float
-    rms_slope: float
-    peaks: tuple[Summits, Summits | None]
-    summits: tuple[Summits, Summits | None]
-
-    @property
-    def columns(self) -> dict[str, object]:
-        """Of its row in the series."""
-        columns = {name: getattr(self, name) for name in ("treatment", "size", "bandwidth")}
-        columns["rms_slope"] = self.rms_slope
-        for kind, (number, by) in product(("peaks", "summits"), enumerate(BY)):
-            if (known := getattr(self, kind)[number]) is not None:
-                columns |= {f"{kind}.{by}.{name}": v for name, v in asdict(known).items()}
-        return columns
+# By patterns of columns' names.
+UNITS = {"load": "N/m", "peaks.*.density": "1/m", "summits.*.density": "1/m²"}
+UNITS |= dict.fromkeys(("*real_length", "*half_width", "size", "*.radius", "*.deviation"), "m")
+UNITS |= {"*.mean": "m"} | dict.fromkeys((f"*.{PRESSURE}", "even", "persson.*"), "Pa")
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -101,8 +74,8 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     if solved.runs:
         return
     try:
-        rows = summit_rows(problem.surface.profile, scene.statistics.cutoffs)
-        _cylinders(problem, problem.hertz.load_per_length, rows[0])
+        summit_rows(problem.surface.profile, scene.statistics.cutoffs)
+        _cylinders(problem, problem.hertz.load_per_length)
     except (ValueError, ArithmeticError) as error:
         raise SceneError(f"{scene.source}: statistics: {error}") from None
     cost = expected_of(problem.grid(problem.pitches[0]).count).seconds
@@ -110,13 +83,13 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     finest = _grid(problem, load, problem.surface.profile, 0.5 * pitch)
     refuse_too_large(problem, expected_of(finest.count), "[statistics] of light loads", 0.5 * pitch)
     seconds = STEPS * scene.statistics.traces * cost
-    tasks.add(NAME, _loads, problem, rows[0], seconds=seconds, urgency=LATER)
+    tasks.add(NAME, _loads, problem, seconds=seconds, urgency=LATER)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Patches are as uncertain as the worst of their model's figures, which `before` has."""
     problem, wanted = solved.problem, solved.problem.scene.statistics
-    summits = [row.columns for row in summit_rows(problem.surface.profile, wanted.cutoffs)]
+    summits = summit_rows(problem.surface.profile, wanted.cutoffs)
     series = [_table("summits", summits), _table("loads", *tasks.result(NAME))]
     for name in solved.runs:
         stated = (f for f in before[contact.NAME].figures if f.source == name and f.levels)
@@ -132,14 +105,15 @@ def _table(
 ) -> Series:
     columns = columns_of(rows, uncertainties=uncertainties)
     for key, column in columns.items():
-        unit = next((unit for end, unit in UNITS.items() if key.endswith(end)), "")
+        unit = next((unit for pattern, unit in UNITS.items() if fnmatchcase(key, pattern)), "")
         columns[key] = replace(column, unit=unit)
     return Series(name, columns)
 
 
-def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
-    """Of the profile as pressed, at every cut-off [m] and from every so many of its samples. Raises
-    ValueError for a profile without statistics and a given cut-off that does not suit the trace."""
+def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> list[dict[str, object]]:
+    """Columns of the profile as pressed, at every cut-off [m] and from every so many of its
+    samples, with the `size` [m] of either. Raises ValueError for a profile without statistics and a
+    given cut-off that does not suit the trace."""
     rows = [_summits(profile, "as pressed", profile.spacing, strict=True)]
     for cutoff in cutoffs or np.multiply(CUTOFFS, shortest_wavelength(profile)).tolist():
         with nullcontext() if cutoffs else suppress(ValueError):
@@ -147,29 +121,34 @@ def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[Su
     for every in THINNED:
         thin = Profile(profile.x[::every], profile.height[::every])
         rows.append(_summits(thin, "sampling", thin.spacing))
-    return tuple(rows)
+    return rows
 
 
-def _summits(profile: Profile, treatment: str, size: float, strict: bool = False) -> SummitRow:
-    moments, counted, summits = spectral_moments(profile), None, None
+def _summits(
+    profile: Profile, treatment: str, size: float, strict: bool = False
+) -> dict[str, object]:
+    """Peaks, expected and counted, and summits by either; counted ones where they are enough."""
+    moments = spectral_moments(profile)
+    row = {"treatment": treatment, "size": size, "bandwidth": moments.bandwidth}
+    row["rms_slope"] = float(np.sqrt(moments.m2))
+    known = {"peaks.moments": moments.peaks(), "summits.moments": moments.summits()}
     with nullcontext() if strict else suppress(ValueError):
-        counted = counted_peaks(profile)
-        summits = summits_of_peaks(counted, moments)
-    by_both = (moments.peaks(), counted), (moments.summits(), summits)
-    return SummitRow(treatment, size, moments.bandwidth, float(np.sqrt(moments.m2)), *by_both)
+        known["peaks.peaks"] = counted_peaks(profile)
+        known["summits.peaks"] = summits_of_peaks(known["peaks.peaks"], moments)
+    return row | {f"{n}.{key}": v for n, by in known.items() for key, v in asdict(by).items()}
 
 
-def _cylinders(problem: Problem, load: float, row: SummitRow) -> "list[RoughContact]":
-    """One by moments, one by counting."""
+def _cylinders(problem: Problem, load: float) -> "list[RoughContact]":
+    """On summits by moments and by counting."""
     from analytic.statistics.rough_bodies import rough_cylinder
 
-    radius = problem.scene.roller.radius
-    return [rough_cylinder(load, radius, problem.modulus, summits) for summits in row.summits]
+    profile, radius = problem.surface.profile, problem.scene.roller.radius
+    moments = spectral_moments(profile)
+    both = moments.summits(), summits_of_peaks(counted_peaks(profile), moments)
+    return [rough_cylinder(load, radius, problem.modulus, summits) for summits in both]
 
 
-def _loads(
-    here: Here, problem: Problem, summits: SummitRow
-) -> tuple[list[dict[str, float]], dict[str, list[float]]]:
+def _loads(here: Here, problem: Problem) -> tuple[list[dict[str, float]], dict[str, list[float]]]:
     """A row a load, from the heaviest, and the uncertainties of some of their columns."""
     here.callback("half-plane: random traces")
     measured, wanted = problem.surface.profile, problem.scene.statistics
@@ -179,7 +158,7 @@ def _loads(
         load, pitch = _step(problem, step)
         pressed = [(measured, pitch), (measured, 0.5 * pitch), *((t, pitch) for t in traces)]
         solved = np.array([_pressed(problem, load, *trace) for trace in pressed])
-        row, unsure = _row(problem, load, summits, solved)
+        row, unsure = _row(problem, load, solved)
         rows, sizes = [*rows, row], [*sizes, unsure]
     return rows, {name: [of_load[name] for of_load in sizes] for name in sizes[0]}
 
@@ -199,10 +178,10 @@ def _grid(problem: Problem, load: float, profile: Profile, pitch: float) -> HatG
 
 def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> list[float]:
     """FIGURES of the elastic half-plane, and how many patches there are."""
-    radius, grid = problem.scene.roller.radius, _grid(problem, load, profile, pitch)
-    gap = grid.hat_integrals(roller_gap(radius, surface(profile)), profile.x)
-    operator = HalfPlane(grid.count, pitch, problem.modulus)
-    solution = solve_contact(operator, gap, grid.weights, Constraints(load=load))
+    grid = _grid(problem, load, profile, pitch)
+    traced = replace(problem, surface=replace(problem.surface, profile=profile))
+    operator = half_plane_of(problem, grid, 0.0)
+    solution = pressed_on(traced, grid, operator, Constraints(load=load))
     pressure = solution.pressure
     if not solution.converged or pressure[0] > 0.0 or pressure[-1] > 0.0:
         raise SceneError(
@@ -216,27 +195,26 @@ def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> l
 
 
 def _row(
-    problem: Problem, load: float, summits: SummitRow, solved: np.ndarray
+    problem: Problem, load: float, solved: np.ndarray
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Columns of one load, and the uncertainty of some.
 
     solved (2 + n, 4): the scene's trace on coarse and on fine elements, and random ones, whose mean
     is as sure as the 95 % interval of it."""
-    radius, modulus, slope = problem.scene.roller.radius, problem.modulus, summits.rms_slope
+    radius, modulus = problem.scene.roller.radius, problem.modulus
     (coarse, fine), random = solved[:2], solved[2:]
     mean, count = random.mean(axis=0), len(random)
     error = stdtrit(count - 1, QUANTILE) * random.std(axis=0, ddof=1) / np.sqrt(count)
-    cylinders = _cylinders(problem, load, summits)
-    first, patches = cylinders[0], mean[3]
+    cylinders, moments = _cylinders(problem, load), spectral_moments(problem.surface.profile)
+    first, patches, slope = cylinders[0], mean[3], float(np.sqrt(moments.m2))
     isotropic, ridges = (
         load / (2.0 * float(first.steps @ persson_fraction(first.pressure, modulus, rms)))
         for rms in (np.sqrt(2.0) * slope, slope)
     )
-    ridge = hertz_from_load(load / patches, summits.peaks[0].radius, modulus)
-    known = [
-        (load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width) for c in cylinders
-    ]
-    sources = dict(zip((*BY, "trace", "random"), (*known, fine, mean), strict=True))
+    ridge = hertz_from_load(load / patches, moments.peaks().radius, modulus)
+    sources = {"trace": fine, "random": mean}
+    for by, c in zip(("moments", "peaks"), cylinders, strict=True):
+        sources[by] = load / c.mean_real_pressure, c.mean_real_pressure, c.effective_width
     row = {"load": load, "half_width": hertz_from_load(load, radius, modulus).half_width}
     for source, figures in sources.items():
         row |= {f"figures.{source}.{n}": float(v) for n, v in zip(FIGURES, figures, strict=False)}

@@ -111,22 +111,23 @@ def test_filters_take_the_sharpest_summits_first(outcome):
     rows = {kind: [] for kind in ("as pressed", "cut-off", "sampling")}
     profile = outcome.problem.surface.profile
     for row in summit_rows(profile, None):
-        rows[row.treatment].append(row)
+        rows[row["treatment"]].append(row)
     assert [len(column) for column in rows.values()] == [1, 4, 2]
     for finer, coarser in zip(rows["cut-off"], rows["cut-off"][1:], strict=False):
-        assert coarser.summits[0].radius > 1.3 * finer.summits[0].radius
-        assert coarser.summits[0].density < finer.summits[0].density
-        assert coarser.bandwidth < finer.bandwidth
+        assert coarser["summits.moments.radius"] > 1.3 * finer["summits.moments.radius"]
+        assert coarser["summits.moments.density"] < finer["summits.moments.density"]
+        assert coarser["bandwidth"] < finer["bandwidth"]
     (pressed,) = rows["as pressed"]
-    for by_moments, counted in (pressed.peaks, pressed.summits):
-        assert counted.radius == pytest.approx(by_moments.radius, rel=0.15)
-        assert counted.density == pytest.approx(by_moments.density, rel=0.2)
+    for name, near in (("radius", 0.15), ("density", 0.2)):
+        for kind in ("peaks", "summits"):
+            counted, by_moments = (pressed[f"{kind}.{by}.{name}"] for by in ("peaks", "moments"))
+            assert counted == pytest.approx(by_moments, rel=near)
 
 
 def test_cutoffs_can_be_asked_for():
     profile = surface_of(resolved(SCENE)).profile
     rows = summit_rows(profile, (20e-6, 50e-6))
-    assert [row.size for row in rows if row.treatment == "cut-off"] == [20e-6, 50e-6]
+    assert [row["size"] for row in rows if row["treatment"] == "cut-off"] == [20e-6, 50e-6]
     with pytest.raises(ValueError, match="does not suit the trace"):
         summit_rows(profile, (1.0,))
 
