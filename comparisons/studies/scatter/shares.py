@@ -10,7 +10,8 @@ V the variance over A and B. Where inputs do not interact, S_i and T_i are equal
 Few samples suffice where f is nearly linear: the line of regression on the inputs is taken out of f
 before, and its shares, which are known, are added."""
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -28,6 +29,11 @@ class Shares:
     total: np.ndarray
     first_uncertainty: np.ndarray
     total_uncertainty: np.ndarray
+
+    def by_input(self, names: Iterable[str]) -> dict[str, dict[str, float]]:
+        """The four by the inputs' names."""
+        columns = {kind: values.tolist() for kind, values in asdict(self).items()}
+        return {n: {kind: c[i] for kind, c in columns.items()} for i, n in enumerate(names)}
 
 
 def designs(samples: int, inputs: int, seed: int) -> np.ndarray:
@@ -56,9 +62,13 @@ def shares(values: np.ndarray, scores: np.ndarray, seed: int = 0) -> Shares | No
     estimates = _estimates(values, scores)
     draws = np.random.default_rng(seed).integers(count, size=(RESAMPLED, count))
     drawn = np.array([_estimates(values[:, draw], scores[:, draw]) for draw in draws])
-    tails = 50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)
-    low, high = np.nanpercentile(drawn, tails, axis=0)
+    low, high = central(drawn)
     return Shares(*estimates, *(0.5 * (high - low)))
+
+
+def central(values: np.ndarray) -> np.ndarray:
+    """Ends (2, …) of the central 95 % of values along the first axis, nan left out."""
+    return np.nanpercentile(values, (50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)), axis=0)
 
 
 def _estimates(values: np.ndarray, scores: np.ndarray) -> np.ndarray:

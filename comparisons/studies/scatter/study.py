@@ -11,7 +11,7 @@ samples there were; the band that pressures lie in; a table, and sentences."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,7 +38,7 @@ from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
 from comparisons.scenes.surface import SceneSurface
-from comparisons.studies.scatter.shares import INTERVAL, Shares, designs, shares
+from comparisons.studies.scatter.shares import central, designs, shares
 
 TOGETHER = 16  # samples of a task: what an interrupted run may lose
 DESIGN, SHARES = "Sobol, scrambled", "Saltelli et al. 2010"
@@ -82,52 +82,53 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     problem, wanted = solved.problem, solved.problem.scene.scatter
     points, by = _points(problem), _tasks(solved, tasks)
     batches = [by.result(key) for key in _batches(points)]
-    answers = [answer for batch in batches for answer in batch["figures"]]
-    failures = [answer for answer in answers if isinstance(answer, str)]
+    coarsest, _ = _nominal(problem)
+    nothing = [[np.nan] * len(of_friction) for of_friction in coarsest.values()]
+    values = np.array([one or nothing for found, *_ in batches for one in found])
+    pressures = np.concatenate([found for _, found, _ in batches])
+    failures = [text for *_, texts in batches for text in texts]
     columns = zip(wanted.inputs.values(), np.moveaxis(points, -1, 0), strict=True)
     scores = np.stack([values_at(spread, 1.0, column) for spread, column in columns], axis=-1)
-    figures, coarsest = [], _nominal(problem)[0]
+    figures = []
     for number, case in enumerate(solved.cases):
-        friction, coarse = case.friction, coarsest[case.friction]
-        finest = case.runs["half_plane"].finest
-        for quantity, value in values_of(finest, case.problem).items():
-            values = [np.nan if isinstance(a, str) else a[number][quantity] for a in answers]
-            values = np.array(values).reshape(len(points), -1)
-            if coarse[quantity]:
-                values *= value / coarse[quantity]
-            drawn = values[np.isfinite(values)]
-            if drawn.size:
-                parts = _by_input(shares(values, scores, wanted.seed), tuple(wanted.inputs))
-                deviation = float(drawn.std(ddof=1)) if drawn.size > 1 else 0.0
-                ends = tuple(map(float, _interval(drawn)))
-                spread = SampleSpread(float(drawn.mean()), deviation, ends, parts)
-                samples = len(answers) - len(failures)
-                figures.append(scattered(quantity, friction, float(value), spread, samples))
-    counts = {"samples": wanted.samples, "solutions": len(answers), "failed": len(failures)}
+        coarse, finest = coarsest[case.friction], case.runs["half_plane"].finest
+        nominal = values_of(finest, case.problem)
+        for place, (quantity, value) in enumerate(nominal.items()):
+            scale = value / coarse[quantity] if coarse[quantity] else 1.0
+            drawn = scale * values[:, number, place]
+            if np.isfinite(drawn).any():
+                parts = shares(drawn.reshape(len(points), -1), scores, wanted.seed)
+                named = None if parts is None else parts.by_input(wanted.inputs)
+                figures.append(_scattered(quantity, case.at, value, drawn, named))
+    counts = {"samples": wanted.samples, "solutions": len(values), "failed": len(failures)}
     counts["pitch"] = problem.pitches[0]
     said = [Statement("design", DESIGN), Statement("shares", SHARES)]
     said += [Statement("first failure", text) for text in failures[:1]]
     series = Series(SAMPLES, columns_of([counts], {"pitch": "m"}))
-    return Findings(tuple(figures), (series,), tuple(said), _band(problem, batches))
+    known = pressures[np.isfinite(pressures[:, 0])]
+    band = central(known) if len(known) else np.full((2, pressures.shape[1]), np.nan)
+    data = PressureBand(problem.pitches[0], problem.grid(problem.pitches[0]).x, band)
+    return Findings(tuple(figures), (series,), tuple(said), data)
 
 
-def scattered(
-    quantity: str, friction: float, nominal: float, spread: SampleSpread, samples: int
+def _scattered(
+    quantity: str, at: Mapping[str, float], nominal: float, drawn: np.ndarray, parts: dict | None
 ) -> Figure:
     """A figure of the half-plane [SI] with every input as the scene has it, on the finest pressure
-    elements, and its spread over so many samples. Their mean is as sure as their deviation over the
-    root of their number."""
-    scale = abs(nominal) or 1.0
-    error = spread.deviation / max(1, samples) ** 0.5
+    elements, and its spread over the samples, nan without a solution. Their mean is as sure as
+    their deviation over the root of their number."""
+    known, scale = drawn[np.isfinite(drawn)], abs(nominal) or 1.0
+    deviation = float(known.std(ddof=1)) if known.size > 1 else 0.0
+    ends = tuple(central(known).tolist())
     return Figure(
         study=NAME,
         quantity=quantity,
         source="half_plane",
-        value=nominal,
-        at={"friction": friction},
+        value=float(nominal),
+        at=at,
         scale=scale,
-        uncertainty=Uncertainty({"sampling": error / scale}),
-        spread=spread,
+        uncertainty=Uncertainty({"sampling": deviation / known.size**0.5 / scale}),
+        spread=SampleSpread(float(known.mean()), deviation, ends, parts),
     )
 
 
@@ -154,28 +155,6 @@ def _tasks(solved: Solved, tasks: Tasks) -> Tasks:
     if solved.opens is None:
         return tasks
     return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))
-
-
-def _band(problem: Problem, batches: list[dict]) -> PressureBand:
-    x = problem.grid(problem.pitches[0]).x
-    pressures = np.concatenate([batch["pressures"] for batch in batches])
-    pressures = pressures[np.isfinite(pressures[:, 0])]
-    band = _interval(pressures) if len(pressures) else np.full((2, len(x)), np.nan)
-    return PressureBand(problem.pitches[0], x, band)
-
-
-def _interval(values: np.ndarray) -> np.ndarray:
-    """The central INTERVAL of values along the first axis: (2, …)."""
-    return np.percentile(values, (50.0 * (1.0 - INTERVAL), 50.0 * (1.0 + INTERVAL)), axis=0)
-
-
-def _by_input(of_figure: Shares | None, inputs: tuple[str, ...]) -> dict | None:
-    if of_figure is None:
-        return None
-    columns = {name: values.tolist() for name, values in asdict(of_figure).items()}
-    return {
-        name: {kind: values[i] for kind, values in columns.items()} for i, name in enumerate(inputs)
-    }
 
 
 def values_at(spread: Spread, nominal: float, share: ArrayLike) -> np.ndarray:
@@ -237,13 +216,12 @@ def _solve_batch(
     points: np.ndarray,
     places: np.ndarray,
     scale: float | None,
-) -> dict[str, object]:
-    """What the half-plane finds at points (n, d): `figures`, at each a dictionary by quantity for
-    every friction coefficient, or why there is none; and its `pressures` (n, k) [Pa] at places
-    (k,) [m], nan without a solution. `scale` of the layer's load where the approach is prescribed,
-    else None."""
+) -> tuple[list[list | None], np.ndarray, list[str]]:
+    """What the half-plane finds at points (n, d): figures (f, q) by friction coefficient and
+    quantity, None without a solution; pressures (n, k) [Pa] at places (k,) [m], then nan; and why
+    there is none. `scale` of the layer's load where the approach is prescribed, else None."""
     here.callback("half-plane: uncertain inputs")
-    answers, pressures = [], np.full((len(points), len(places)), np.nan)
+    figures, pressures, failures = [], np.full((len(points), len(places)), np.nan), []
     for number, point in enumerate(points):
         try:
             one = sampled(scene, surface, point)
@@ -252,10 +230,11 @@ def _solve_batch(
             by_friction, pressure = _nominal(problem)
             x = problem.grid(problem.pitches[0]).x
             pressures[number] = np.interp(places, x, pressure, 0.0, 0.0)
-            answers.append(tuple(by_friction.values()))
+            figures.append([list(of_friction.values()) for of_friction in by_friction.values()])
         except (InputError, ContactError, ArithmeticError, ValueError) as error:
-            answers.append(one_line(str(error)))
-    return {"figures": tuple(answers), "pressures": pressures}
+            failures.append(one_line(str(error)))
+            figures.append(None)
+    return figures, pressures, failures
 
 
 def blocks(run: Run) -> list[Block]:
