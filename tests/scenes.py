@@ -187,7 +187,7 @@ def finite_elements(
 def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
     """The half-plane on one level, as `finite_elements` has theirs."""
     from comparisons.common.progress import Stages
-    from comparisons.models.half_plane import half_plane_level
+    from comparisons.models.analytic import half_plane_level
     from comparisons.models.window import window_of
 
     window = window_of(posed) if fields else None

@@ -25,11 +25,11 @@ from comparisons.judging import contact
 from comparisons.judging.comparison import relative_l2
 from comparisons.judging.contact import values_of
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Run, Solved, Study
-from comparisons.models.half_plane import half_plane_on
+from comparisons.models.analytic import analytic_level
 from comparisons.models.level import Level
 from comparisons.models.plan import no_coupling
 from comparisons.models.posing import surface_ends
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, Problem
 from comparisons.models.window import Window
 
 NAME = "coupling"
@@ -122,15 +122,13 @@ def _coupling(case: Case, window: Window | None, callback: ProgressCallback) -> 
     if (why := no_coupling(problem, friction)) is not None:
         return Coupling(friction, {}, why=why)
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
-    size = friction * problem.dundurs_beta
     # the level itself was solved with coupling or without; solve the other way
-    other_size = 0.0 if problem.coupling else size
+    effects = frozenset({COUPLED}) - problem.half_plane_effects
     # friction moves the contact by at most about mu beta of its own half-length
-    more = int(np.ceil(0.5 * abs(size) * level.grid.count))
+    more = int(np.ceil(0.5 * abs(friction * problem.dundurs_beta) * level.grid.count))
     while True:
         grid = _stretched(problem, level.grid, more)
-        how = problem, grid, other_size, (friction,), window, stages
-        [other] = half_plane_on(*how, fields=False).values()
+        [other] = analytic_level(problem, effects, grid, window, stages).values()
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break

@@ -14,12 +14,10 @@ from comparisons.figures.quantity import COMPARED, QUANTITIES
 from comparisons.judging.comparison import differences_of, norms_of
 from comparisons.judging.contact import uncertainties, values_of
 from comparisons.judging.effects.catalogue import contained
-from comparisons.judging.ladder.operators import why_no_stresses
 from comparisons.judging.ladder.rungs import OPERATORS, OTHER, operator_runs
 from comparisons.judging.study import LAYERED, Solved, Study
-from comparisons.models.nearest_operator import is_layered
-
-OF_LAYERS = {"finite_size", "coating"}
+from comparisons.models.analytic import why_no_stresses
+from comparisons.models.operators import LAYERS, is_layered
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
@@ -41,7 +39,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 def applies(solved: Solved) -> bool:
     """Whether the scene's finite elements have layers and nothing else that no half-plane has."""
     scene = solved.problem.scene
-    alike = contained(scene) <= OF_LAYERS and scene.body.width is None and not scene.periodic
+    alike = contained(scene) <= LAYERS and scene.body.width is None and not scene.periodic
     possible = why_no_stresses(solved.problem, solved.window) is None
     return bool(solved.plan.compares and is_layered(scene) and alike and possible)
 

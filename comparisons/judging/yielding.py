@@ -26,14 +26,13 @@ from comparisons.judging.contact import AT_HARDNESS, uncertainties
 from comparisons.judging.effects.estimates import (
     BOTH_CRITERIA,
     STIFF,
-    TABOR,
     flow_of,
     typical_shears,
 )
 from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.model_error.account import ErrorBudget
 from comparisons.judging.study import MODEL_ERROR, Case, Run, Solved, Study
-from comparisons.models.problem import Problem
+from comparisons.models.problem import TABOR, Problem
 from comparisons.scenes.scene import Scene
 
 NAME = "yield"

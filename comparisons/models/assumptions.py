@@ -1,7 +1,7 @@
 """The assumptions of a scene's models in words: of both, or of the half-plane alone."""
 
 from comparisons.common.numbers import as_written
-from comparisons.models.nearest_operator import is_layered
+from comparisons.models.operators import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
 from comparisons.scenes.finite_element import FiniteElementSection

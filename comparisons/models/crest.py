@@ -17,9 +17,9 @@ pressures of the crest make of it on a half-plane: so any elastic model of it wi
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.operators.half_plane import HalfPlane
+from comparisons.models.operators import LAYERS, half_planes, solve_on
 from comparisons.models.problem import Problem
 
 REACH, FINER = 32, 4  # elements to each side of a crest's highest pressure; theirs to a coarser one
@@ -34,12 +34,15 @@ MOST = 8  # crests that may come to have the highest pressure, and times that on
 
 
 def unresolved_crest(
-    problem: Problem, modulus: float, grid: HatGrid, solution: ContactSolution
+    problem: Problem,
+    grid: HatGrid,
+    solution: ContactSolution,
+    effects: frozenset[str] = LAYERS,
 ) -> float:
     """Bound of the error of a level's largest pressure, relative to it, by crests that its elements
     do not resolve; 0 where they do, or where the hardness holds it.
 
-    modulus  E* [Pa] of the materials at the surface"""
+    effects  of the level's model: a coating is at the surface"""
     peak, hardness = float(solution.pressure.max()), problem.constraints().hardness
     if problem.surface.profile is None or peak >= hardness * (1.0 - RESOLVED):
         return 0.0
@@ -55,7 +58,7 @@ def unresolved_crest(
         fine, pressed, history = grid, solution, []
         while not history or fine.pitch > enough:
             place = fine.x[top]
-            fine, pressed = _refined(problem, modulus, fine, pressed, top)
+            fine, pressed = _refined(problem, effects, fine, pressed, top)
             # the ends, where fine elements meet coarse ones, are no part of the crest
             near = np.abs(fine.x - place) <= 0.5 * REACH * FINER * fine.pitch
             top = int(np.where(near, pressed.pressure, 0.0).argmax())
@@ -66,7 +69,7 @@ def unresolved_crest(
 
 
 def _refined(
-    problem: Problem, modulus: float, grid: HatGrid, solution: ContactSolution, top: int
+    problem: Problem, effects: frozenset[str], grid: HatGrid, solution: ContactSolution, top: int
 ) -> tuple[HatGrid, ContactSolution]:
     """The elements about a node, and pressures of the same load on finer ones in their place."""
     reach = min(REACH, grid.count // 2 - 1)
@@ -79,12 +82,11 @@ def _refined(
     fine = HatGrid(grid.pitch / FINER, start, stop)
     pressure = solution.pressure[nodes]
     own = coarse.hat_integrals(problem.gap, problem.knots)
-    own += HalfPlane(coarse.count, coarse.pitch, modulus).apply(pressure)
+    own += half_planes(problem, coarse, effects).apply(pressure)
     beside = CubicSpline(coarse.x, solution.gap[nodes] - own / coarse.weights)
     # a mean over hats exceeds the value by h^2/12 times the second derivative
     wider = (coarse.pitch**2 - fine.pitch**2) / 12.0
     gap = beside(fine.x) - wider * beside(fine.x, 2)
     gap = fine.hat_integrals(problem.gap, problem.knots) + gap * fine.weights
     constraints = problem.constraints(load=float(pressure @ coarse.weights))
-    operator = HalfPlane(fine.count, fine.pitch, modulus)
-    return fine, solve_contact(operator, gap, fine.weights, constraints)
+    return fine, solve_on(half_planes(problem, fine, effects), gap, fine.weights, constraints)

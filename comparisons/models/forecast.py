@@ -8,7 +8,7 @@ import numpy as np
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import expected_with
+from comparisons.models.analytic import expected_with
 from comparisons.models.level import ExpectedCost, ModelRun, flowing_contact
 from comparisons.models.plan import LONGER, Plan, make_plan
 from comparisons.models.problem import Problem
@@ -95,14 +95,15 @@ def expected_level(
 ) -> ExpectedCost:
     """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]; of the
     half-plane with the stresses on a window."""
-    contacts = len(problem.scene.load.friction) if problem.friction_moves(model) else 1
+    moved = problem.scene.finite_element.coupled
     if model == "half_plane":
-        cost = expected_with(problem, pitch, window)
+        cost, moved = expected_with(problem, pitch, window), problem.coupling
     else:
         from comparisons.models.finite_element.cost import expected
         from comparisons.models.finite_element.mesh import Refinement
 
         cost = expected(problem, plan, Refinement(pitch), patches)
+    contacts = len(problem.scene.load.friction) if moved else 1
     return replace(cost, seconds=contacts * cost.seconds)
 
 

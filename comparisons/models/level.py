@@ -15,7 +15,7 @@ from analytic.material import Material
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import machine_memory
-from comparisons.models.nearest_operator import nearest_operator, solve_on
+from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.problem import Problem, mean_height
 from fem.body.coating import Coating
 from meshes.block import BlockMesh
@@ -58,11 +58,10 @@ def flowing_contact(problem: Problem) -> np.ndarray:
     make them, which increments of flow follow. Where elastic ones have met they are parted in the
     middle: so far their edges travel."""
     grid = problem.grid(problem.pitches[0])
-    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-    operator = nearest_operator(problem.scene, grid)
-    wide = solve_on(operator, gap, grid.weights, problem.widest)
+    operator, gap = operator_of(problem, grid), problem.finite_element_gap
+    wide = pressed_on(problem, grid, operator, problem.widest, gap)
     patches = contact_patches(grid.x, wide.pressure, wide.gap)
-    elastic = solve_on(operator, gap, grid.weights, problem.constraints())
+    elastic = pressed_on(problem, grid, operator, gap=gap)
     first = contact_patches(grid.x, elastic.pressure, elastic.gap)
     parted = 0.5 * (first[1:, 0] + first[:-1, 1])
     inside = ((parted[:, None] > patches[:, 0]) & (parted[:, None] < patches[:, 1])).any(axis=1)
@@ -259,12 +258,12 @@ class ModelRun:
 
 
 def by_friction(
-    problem: Problem, model: str, solve: Callable[[Problem], dict[float, Level]]
+    problem: Problem, moves: bool, solve: Callable[[Problem], dict[float, Level]]
 ) -> dict[float, Level]:
     """A model's level at each of the scene's friction coefficients, by `solve` of those that share
-    a contact: of one after the other where friction moves it. What was expected is that of all."""
+    a contact, one after the other where friction `moves` it. What was expected is that of all."""
     groups = [problem]
-    if problem.friction_moves(model):
+    if moves:
         groups = [problem.under(friction) for friction in problem.scene.load.friction]
     solved = [solve(group) for group in groups]
     seconds = sum(next(iter(of_group.values())).expected_seconds for of_group in solved)

@@ -1,6 +1,7 @@
 """How a scene becomes the problem that both models solve (`comparisons.models.problem`): how far
 contact may reach, how fine its elements are, and what is refused."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 
@@ -13,8 +14,8 @@ from analytic.grid import HatGrid
 from analytic.material import combined_modulus
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import SceneError
-from comparisons.models.nearest_operator import is_layered, nearest_operator
-from comparisons.models.problem import Levels, Problem, half_plane_of, least_of_flow, pressed_on
+from comparisons.models.operators import LAYERS, is_layered, operator_of, patches_of, pressed_on
+from comparisons.models.problem import Levels, Problem, least_of_flow
 from comparisons.models.running_in import run_in_surface
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
@@ -33,6 +34,8 @@ WIDEST_CIRCLE = 0.8  # of the radius that pressures may extend to
 # thinner one takes are more than can be held, and the rounding of a thicker one shows at its top.
 THINNEST, THICKEST = 1e-3, 1e6
 STIFFEST = 1e9  # times the body's modulus, of a coating; as soft at least: a gel on diamond is 1e-9
+LAST_LOAD_CHANGE = 1e-3  # relative change of the load that no longer moves the mesh
+MOST_ROUNDS = 12  # of loads for a prescribed approach
 # Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
 # elements beyond it, which are as wide as a smooth contact's are few.
 MARGIN, SMOOTH_MARGIN = 0.15, 0.5
@@ -60,6 +63,50 @@ def problem_of(
     _check_count(problem)
     _check_circle(problem)
     return replace(problem, asperities=_asperities(problem))
+
+
+def settled(
+    scene: Scene,
+    surface: SceneSurface,
+    pressed: Callable[[Problem], tuple[float, np.ndarray]],
+    levels: Levels | None = None,
+) -> Problem:
+    """The scene's problem under the load of its approach, to LAST_LOAD_CHANGE or better.
+
+    pressed  load [N/m] and patches (k, 2) [m] of a problem at the approach, on its own grid
+    Each round solves on the grid for the load of the one before. Raises SceneError if the rounds
+    do not settle."""
+    wanted = scene.load.value
+    # a rigid body of the roller's shape would cut the surface over twice this half-width
+    half_width = np.sqrt(scene.roller.radius * wanted)
+    modulus = scene.body.material.plane_strain_modulus
+    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller.radius)
+    for _ in range(MOST_ROUNDS):
+        problem = problem_of(scene, surface, load, levels)
+        pitch = problem.pitches[-1]
+        before, (load, patches) = load, pressed(problem)
+        low, high = problem.extent
+        if patches[0, 0] < low + pitch or patches[-1, 1] > high - pitch:
+            load = 2.0 * before  # the contact fills the grid: it carries more than that
+        elif abs(load - before) <= LAST_LOAD_CHANGE * load:
+            return problem_of(scene, surface, load, levels)
+    raise SceneError(
+        f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
+        "load (per_length) instead"
+    )
+
+
+def load_on_layer(scene: Scene, surface: SceneSurface) -> float:
+    """The load [N/m] of the scene's approach on the endless layer, without friction."""
+
+    def pressed(problem: Problem) -> tuple[float, np.ndarray]:
+        grid = problem.grid(problem.pitches[-1])
+        depth = scene.load.value + problem.first_touch
+        limits = replace(problem.constraints(), load=None, approach=depth)
+        solution = pressed_on(problem, grid, operator_of(problem, grid), limits)
+        return solution.load, patches_of(grid, solution)
+
+    return settled(scene, surface, pressed).hertz.load_per_length
 
 
 def _under_roller(
@@ -192,7 +239,7 @@ def _too_wide(scene: Scene, touching: tuple, ends: tuple) -> str:
 def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
     """First and last contact [m] of either model in a range, and what is too near its ends [m]."""
     frictions, problems = problem.scene.load.friction, [problem]
-    if problem.friction_moves("half_plane"):
+    if problem.coupling:
         problems = [problem.under(mu) for mu in (min(frictions), max(frictions))]
     starts, stops = zip(*(_touched(p, (low, high), layered=False) for p in problems), strict=True)
     start, stop = min(starts), max(stops)
@@ -205,8 +252,8 @@ def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[flo
 def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tuple[float, float]:
     """First and last contact [m] in a range by SEARCH_HATS hats, on half-plane or layers."""
     grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
-    operator = nearest_operator(problem.scene, grid) if layered else half_plane_of(problem, grid)
-    solution = pressed_on(problem, grid, operator, problem.widest)
+    effects = LAYERS if layered else problem.half_plane_effects
+    solution = pressed_on(problem, grid, operator_of(problem, grid, effects), problem.widest)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
 
@@ -267,7 +314,8 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
     if problem.scene.profile is None:
         return ()
     grid = problem.grid(problem.pitches[0])
-    pressure = pressed_on(problem, grid, half_plane_of(problem, grid)).pressure
+    half_plane = operator_of(problem, grid, problem.half_plane_effects)
+    pressure = pressed_on(problem, grid, half_plane).pressure
     peaks = standing_out(pressure, STANDS_OUT * pressure.max())
     valleys = []
     for start, stop in pairwise(peaks):

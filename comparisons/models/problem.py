@@ -11,23 +11,18 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactSolution
 from analytic.exact.hertz import HertzContact
 from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import dundurs_constants
-from analytic.operators.half_plane import ModelOperator
-from analytic.operators.periodic import PeriodicHalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
 from analytic.profile import surface
-from comparisons.models.nearest_operator import solve_on
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
 
 MOST_LEVELS = 8  # of a run
+COUPLED = "normal_tangential_coupling"  # name of an effect
+TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
 FIRST_TOUCH_POINTS = 100_001
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
 # Depth of an unbounded periodic body over its period: a wave of it is off by 1e-7 at half of that.
@@ -112,21 +107,18 @@ class Problem:
         """The problem under one of the scene's friction coefficients alone."""
         return replace(self, scene=self.scene.unchecked({"load.friction": (friction,)}))
 
-    def friction_moves(self, model: str) -> bool:
-        """Whether a model's contact is another one under every friction coefficient."""
-        return bool(self.coupling if model == "half_plane" else self.scene.finite_element.coupled)
-
     @cached_property
     def gap(self) -> Callable[[np.ndarray], np.ndarray]:
         """Initial gap g0(x) [m] under a parabola, but for a constant."""
-        return self._gap_under("parabola")
+        return self.gap_under("parabola")
 
     @cached_property
     def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
         """Initial gap g0(x) [m] of the finite elements' roller, but for a constant."""
-        return self._gap_under(self.scene.finite_element.roller_shape)
+        return self.gap_under(self.scene.finite_element.roller_shape)
 
-    def _gap_under(self, shape: str) -> Callable[[np.ndarray], np.ndarray]:
+    def gap_under(self, shape: str) -> Callable[[np.ndarray], np.ndarray]:
+        """Initial gap g0(x) [m] under a "parabola" or a "circle", but for a constant."""
         curve = None if self.surface.profile is None else surface(self.surface.profile)
         return roller_gap(self.scene.roller.radius, curve, shape)
 
@@ -157,6 +149,11 @@ class Problem:
         """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out.
         Of several coefficients the largest."""
         return self.largest_friction * self.dundurs_beta if self.scene.load.coupled else 0.0
+
+    @property
+    def half_plane_effects(self) -> frozenset[str]:
+        """Names of the effects that the scene's half-plane has: none, or COUPLED."""
+        return frozenset({COUPLED} if self.coupling else ())
 
     def grid(self, pitch: float) -> HatGrid:
         if self.period is not None:
@@ -190,44 +187,3 @@ def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
     if problem.scene.profile is None:
         return np.zeros(grid.count)
     return grid.hat_integrals(problem.surface.profile.spline(), problem.knots) / grid.weights
-
-
-def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndStress:
-    """What the hats of a solution leave out of the stresses next to the ends of contact: both
-    models' own, for both have hats. Nothing where the hardness holds a pressure."""
-    pressure, x = grid.unfolded(solution.pressure), grid.unfolded_x
-    if np.any(pressure >= problem.constraints().hardness):
-        return EndStress(x, pressure, ())
-    return end_stress(x, pressure, grid.unfolded(solution.gap))
-
-
-def patches_of(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
-    """Contact patches (k, 2) [m], ascending. Of a periodic surface those that start in the grid's
-    period, which the last may end beyond; or the whole period."""
-    pressure, gap = solution.pressure, solution.gap
-    if not grid.periodic:
-        return contact_patches(grid.x, pressure, gap)
-    start, stop = grid.x[0], grid.x[0] + grid.period
-    if np.all(pressure > 0.0):
-        return np.array([[start, stop]])
-    every = contact_patches(grid.unfolded_x, grid.unfolded(pressure), grid.unfolded(gap))
-    return every[(every[:, 0] >= start) & (every[:, 0] < stop)]
-
-
-def half_plane_of(
-    problem: Problem, grid: HatGrid, friction_dundurs: float | None = None
-) -> ModelOperator:
-    """Mutual compliance of half-planes in place of both bodies; by default coupled as the scene has
-    it."""
-    if grid.periodic:
-        return PeriodicHalfPlane(grid.count, grid.pitch, problem.modulus)
-    coupling = problem.coupling if friction_dundurs is None else friction_dundurs
-    return CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, coupling)
-
-
-def pressed_on(
-    problem: Problem, grid: HatGrid, operator: ModelOperator, constraints: Constraints | None = None
-) -> ContactSolution:
-    """The contact of a problem on an analytic operator, by its own constraints or others."""
-    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-    return solve_on(operator, weighted_gap, grid.weights, constraints or problem.constraints())

@@ -22,9 +22,9 @@ import numpy as np
 from analytic.stress_state import StressState
 from comparisons.figures.figure import grouped
 from comparisons.judging.study import Run
-from comparisons.models.half_plane import stresses_at
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.models.readings import stresses_at
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid

@@ -130,7 +130,7 @@ class _LevelTask:
             words = f"increments of flow {self.times} times as long"
         stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
         if self.name == "half_plane":
-            from comparisons.models.half_plane import half_plane_level
+            from comparisons.models.analytic import half_plane_level
 
             how = self.problem, self.pitch, self.window, stages
             return half_plane_level(*how)

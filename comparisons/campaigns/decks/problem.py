@@ -26,7 +26,7 @@ from comparisons.models.finite_element.roller import (
     roller_of,
     roller_spec,
 )
-from comparisons.models.nearest_operator import nearest_operator, solve_on
+from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.problem import Problem
 from fem.body.support import Support, held_components
 from fem.body.surface import boundary_points
@@ -105,9 +105,8 @@ def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
         why = f"has {len(scene.load.friction)} coefficients; allowed in a deck with flow is one"
         raise SceneError(f"{scene.source}: load.friction: {why}")
     grid = problem.grid(pitch)
-    weighted = grid.hat_integrals(problem.finite_element_gap, problem.knots)
-    operator = nearest_operator(scene, grid)
-    solution = solve_on(operator, weighted, grid.weights, problem.widest)
+    how = operator_of(problem, grid), problem.widest, problem.finite_element_gap
+    solution = pressed_on(problem, grid, *how)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     wider = patches + WIDER * np.diff(patches, axis=1) * [-1.0, 1.0]
     spec = block_spec(problem, Refinement(pitch), np.clip(wider, *problem.extent))

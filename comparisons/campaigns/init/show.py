@@ -96,7 +96,7 @@ def init_table(made: FirstScene) -> "RenderableType":
 def first_lines(scene: Scene) -> tuple[str, str]:
     """The half-plane's answer on the coarsest level, and estimates of what it leaves out."""
     from comparisons.judging.model_error.study import early_lines
-    from comparisons.models.half_plane import half_plane_level
+    from comparisons.models.analytic import half_plane_level
     from comparisons.models.posing import problem_of
 
     problem = problem_of(scene)

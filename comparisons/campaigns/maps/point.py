@@ -16,7 +16,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.judging.comparison import differences_of
 from comparisons.judging.contact import values_of
 from comparisons.judging.study import Case
-from comparisons.models.half_plane import half_plane_level
+from comparisons.models.analytic import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of

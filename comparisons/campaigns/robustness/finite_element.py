@@ -15,7 +15,7 @@ import numpy as np
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
@@ -34,7 +34,7 @@ from comparisons.figures.figure import Figure
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import nearest_operator
+from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -240,12 +240,7 @@ def coating_figures(times_as_stiff: float, a_over_t: float, refinement: int = 0)
 def analytic_figures(tables: Tables, high: float, refinement: int = 0) -> CaseFigures:
     problem, level = solved(tables, refinement)
     grid, pressure = level.grid, level.solution.pressure
-    expected = solve_contact(
-        nearest_operator(problem.scene, grid),
-        grid.hat_integrals(problem.gap, problem.knots),
-        grid.weights,
-        problem.constraints(),
-    ).pressure
+    expected = pressed_on(problem, grid, operator_of(problem, grid)).pressure
     error = float(np.linalg.norm(pressure - expected) / np.linalg.norm(expected))
     reference = "the analytic layer on the same hats"
     return level_figures(

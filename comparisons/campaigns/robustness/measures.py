@@ -24,7 +24,7 @@ from comparisons.campaigns.cases import (
 )
 from comparisons.figures.figure import Figure
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import solve_on
+from comparisons.models.operators import solve_on
 
 MOST_APPLICATIONS = 300  # of the operator, in one contact
 MOST_TIMES = 10.0  # the applications of the ordinary contact on as many nodes

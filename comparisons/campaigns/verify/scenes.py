@@ -38,7 +38,7 @@ from comparisons.judging import contact
 from comparisons.judging.comparison import relative_l2
 from comparisons.judging.contact import values_of
 from comparisons.judging.study import MODEL_ERROR, unsolved
-from comparisons.models.half_plane import half_plane_level
+from comparisons.models.analytic import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem

@@ -13,7 +13,7 @@ from operator import attrgetter
 from pathlib import Path
 
 from analytic.material import Law
-from comparisons.models.nearest_operator import is_layered
+from comparisons.models.operators import is_layered
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
 
@@ -66,7 +66,6 @@ PLAIN = {
 # What an unbounded body is held beyond where the scene's is finite, so that it has less of the
 # effect: of tau1, which goes with 1/D, a twentieth; of pressures under a disc, with 1/D^2, as much.
 BEYOND_BODY, BEYOND_ROLLER = 20.0, 4.5
-COUPLED = "normal_tangential_coupling"
 STRAINED = "P2"  # elements of finite deformation
 
 

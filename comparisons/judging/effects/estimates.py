@@ -19,7 +19,7 @@ from comparisons.common.numbers import with_unit
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging.coupling import Coupling
 from comparisons.judging.effects.laws import OF_THE_PEAK, open_laws
-from comparisons.models.problem import Problem
+from comparisons.models.problem import TABOR, Problem
 from comparisons.scenes.materials import kinds_of, typical_range
 from comparisons.scenes.sections import BodySection
 
@@ -274,7 +274,6 @@ FIRST_FLOW, CAP = 0.6, 0.1
 # small by half of that; stresses by up to 1.5 times as much, and by 6 % already where friction
 # makes the surface flow first. Their largest value moves to another depth.
 UNCAPPED, UNCAPPED_STRESS, FIRST_AT_SURFACE = 1.0, 1.5, 0.1
-TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
 BOTH_CRITERIA = 2.0 / 3.0**0.5  # shear of first flow by von Mises over that by Tresca
 # [Pa] Rubber, which bears shears of the size of G, is softer.
 STIFF = 1e9

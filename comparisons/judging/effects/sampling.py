@@ -16,7 +16,7 @@ from comparisons.judging.comparison import relative_differences
 from comparisons.judging.effects.estimates import Sizes
 from comparisons.judging.model_error.quantities_of_interest import quantities_of
 from comparisons.judging.study import Solved
-from comparisons.models.half_plane import expected_of, half_plane_level
+from comparisons.models.analytic import expected_of, half_plane_level
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window

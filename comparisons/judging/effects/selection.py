@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 from comparisons.figures.quantity import USUAL
 from comparisons.judging.coupling import Coupling
-from comparisons.judging.effects.catalogue import COUPLED, EFFECTS, contained
+from comparisons.judging.effects.catalogue import EFFECTS, contained
 from comparisons.judging.effects.estimates import Sizes, estimates, flow_of, typical_shears
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.laws import OpenLaw, open_laws
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 FLOW = "plastic_flow"

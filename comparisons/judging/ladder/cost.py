@@ -29,8 +29,13 @@ from comparisons.figures.figure import Column, Figures, Findings, Series, Statem
 from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
-from comparisons.judging.ladder.operators import carried_deformed, carried_linear, operator_level
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
+from comparisons.models.analytic import (
+    analytic_level,
+    carried_deformed,
+    carried_linear,
+    half_plane_level,
+)
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import Level, flowing_contact
 from comparisons.models.plan import make_plan
@@ -136,11 +141,8 @@ def level_by(
     """A level by a method, by friction coefficient, without its fields."""
     stages = Stages(lambda stage: here.callback(f"{stage}, {method.name}"))
     if method.carried:
-        how = problem.scene.load.friction, pitch, window
-        return operator_level(problem, method.carried, *how)
+        return analytic_level(problem, method.carried, problem.grid(pitch), window, stages)
     if method.fields is None:
-        from comparisons.models.half_plane import half_plane_level
-
         return half_plane_level(problem, pitch, window, stages, fields=False)
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement

@@ -3,33 +3,34 @@
 In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
 is a closed form; every other rung is what the run has solved for its verdict."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
 from analytic.contact.problem import ContactError
+from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Tasks, called
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.comparison import differences_of
 from comparisons.judging.contact import uncertainties
-from comparisons.judging.effects.catalogue import COUPLED, EFFECTS
-from comparisons.judging.ladder.operators import (
-    carried,
-    carried_deformed,
-    operator_level,
-    why_no_stresses,
-    words_of,
-)
+from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.model_error.account import ErrorBudget, figure_of
 from comparisons.judging.model_error.model_error import ModelError, Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
+from comparisons.models.analytic import (
+    CAP,
+    analytic_level,
+    carried_deformed,
+    carried_linear,
+    why_no_stresses,
+)
 from comparisons.models.level import ModelRun
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.smooth import closed_form
 from comparisons.models.window import Window
 
@@ -47,7 +48,30 @@ KINDS = {
     FLOW: "elastic-plastic finite elements",
     WHOLE: "whole model",
 }
+WORDS = {
+    "finite_size": "layer",
+    "coating": "coating",
+    COUPLED: "coupling",
+    "exact_circle": "exact circle",
+    CAP: f"pressures up to {TABOR:g} Y",
+}
 NONLINEAR = {"finite_strain": FINITE, "plastic_flow": FLOW}  # kinds by effect; others are linear
+
+
+def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
+    """What an operator can carry of the whole's effects, and a cap where the body yields."""
+    scene = problem.scene
+    held = set(carried_linear(scene, effects))
+    yields = scene.body.yield_stress is not None and scene.body.hardness is None
+    if yields and not scene.periodic and flow.worst.peak > TABOR * scene.body.yield_stress:
+        held.add(CAP)
+    return frozenset(held)
+
+
+def words_of(held: frozenset[str]) -> str:
+    where = "half-plane on the deformed surface" if "finite_strain" in held else "half-plane"
+    beside = ", ".join(words for name, words in WORDS.items() if name in held)
+    return f"{where} with {beside}" if beside else where
 
 
 def verdict_of(errors: Iterable[Figure]) -> str:
@@ -130,7 +154,8 @@ class Ladder:
         every = self.budget.solutions
         errors = [e for one in every for e in self._errors(one, runs[one.case.friction])]
         figures = self._figures(name, errors)
-        return Rung(name, name, words_of(held), figures, *cost_of(runs), held)
+        run = next(iter(runs.values()))  # which took what all took together
+        return replace(_rung_of(run, name, words_of(held), figures), effects=held)
 
     def _errors(self, solutions: Solutions, run: ModelRun) -> list[ModelError]:
         """Errors against the whole of a model that was solved on the half-plane's pressures."""
@@ -231,16 +256,14 @@ def announce_operators(
     pitches: Iterable[float],
     window: Window | None,
     tasks: Tasks,
-) -> dict[tuple[float, ...], list[str]]:
+) -> list[str]:
     """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
-    pitch [m]: their keys by the friction coefficients that share a contact."""
-    frictions, keys, pitches = problem.scene.load.friction, {}, list(pitches)
-    for group in [(mu,) for mu in frictions] if COUPLED in held else [frictions]:
-        name = "+".join(sorted(held)) + f"@{group[0]:g}"
-        keys[group] = [f"operators-{name}-{number}" for number in range(1, len(pitches) + 1)]
-        for key, pitch in zip(keys[group], pitches, strict=True):
-            how = problem, held, group, pitch, window
-            tasks.add(key, called, operator_level, *how, urgency=LAST)
+    pitch [m]: their keys."""
+    keys = []
+    for number, pitch in enumerate(pitches, start=1):
+        keys.append(f"operators-{'+'.join(sorted(held))}-{number}")
+        how = problem, held, problem.grid(pitch), window, Stages()
+        tasks.add(keys[-1], called, analytic_level, *how, urgency=LAST)
     return keys
 
 
@@ -249,29 +272,16 @@ def operator_runs(
 ) -> dict[float, ModelRun] | None:
     """The half-plane with what an operator carries, by friction coefficient, on the pressure
     elements of the finite elements; None where it has no solution."""
-    pitches, runs = [level.grid.pitch for level in solved.runs[OTHER].levels], {}
-    where = solved.problem, held, pitches, solved.window, tasks
-    for group, keys in announce_operators(*where).items():
-        try:
-            solutions = list(map(tasks.result, keys))
-        except ContactError:  # the cap takes a contact that the pressures' extent does not hold
-            return None
-        for friction in group:
-            levels = tuple(by_friction[friction] for by_friction in solutions)
-            if not all(level.converged for level in levels):
-                return None
-            runs[friction] = ModelRun(OPERATORS, levels)
-    return runs
-
-
-def cost_of(runs: Mapping[float, ModelRun]) -> tuple[float, float]:
-    """Seconds and largest memory [bytes] of runs by friction coefficient, some of one contact."""
-    once: list[ModelRun] = []
-    for run in runs.values():
-        if not any(run.finest.shares_contact(known.finest) for known in once):
-            once.append(run)
-    memory = max(run.finest.peak_memory for run in once)
-    return sum(sum(run.seconds.values()) for run in once), memory
+    pitches = [level.grid.pitch for level in solved.runs[OTHER].levels]
+    keys = announce_operators(solved.problem, held, pitches, solved.window, tasks)
+    try:
+        levels = list(map(tasks.result, keys))
+    except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+        return None
+    if not all(level.converged for of_pitch in levels for level in of_pitch.values()):
+        return None
+    frictions = [case.friction for case in solved.cases]
+    return {mu: ModelRun(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
 
 
 def hertz_quantities(

@@ -17,7 +17,6 @@ from comparisons.figures.quantity import WHOLE
 from comparisons.judging import comparison, coupling, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import show
-from comparisons.judging.ladder.operators import carried_deformed
 from comparisons.judging.ladder.rungs import (
     HALF_PLANE,
     Ladder,
@@ -27,6 +26,7 @@ from comparisons.judging.ladder.rungs import (
 )
 from comparisons.judging.model_error.error_budget import selected_effects
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
+from comparisons.models.analytic import carried_deformed
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:

@@ -10,13 +10,13 @@ from dataclasses import dataclass, field
 from comparisons.figures.figure import Column, Figure, Findings, Part, Series, Statement
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.effects.catalogue import COUPLED, EFFECTS
+from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.laws import trust
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.model_error import ModelError, Solutions
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, Problem
 
 NAME = "model_error"
 INTERACTION, JUMP = "interaction", "jump"  # parts beside the effects

@@ -17,10 +17,10 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from operator import sub
 
-from comparisons.judging.effects.catalogue import COUPLED, STRAINED, ModelVariant
+from comparisons.judging.effects.catalogue import STRAINED, ModelVariant
 from comparisons.judging.effects.selection import NONLINEAR, ORDER, EffectSelection
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, Problem
 
 OF_SIZE = ("finite_size", "finite_roller")  # effects that a far boundary has, too
 

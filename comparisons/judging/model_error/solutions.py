@@ -13,7 +13,6 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.effects.catalogue import (
-    COUPLED,
     EFFECTS,
     ModelVariant,
     contained,
@@ -30,7 +29,7 @@ from comparisons.judging.study import Solved
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Problem
+from comparisons.models.problem import COUPLED, Problem
 from comparisons.models.window import Window
 from fem.solver.mumps import FemError
 from meshes.block import MeshError

@@ -17,7 +17,6 @@ from comparisons.figures.figure import Figure, nearest_to_tolerance
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS, contained
-from comparisons.judging.effects.estimates import TABOR
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.sampling import EFFECT as SAMPLING
 from comparisons.judging.effects.selection import FLOW, why_not
@@ -27,6 +26,7 @@ from comparisons.judging.verdict.whole import figures_of_whole
 from comparisons.judging.verdict.within import rounded_up
 from comparisons.models.forecast import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
+from comparisons.models.problem import TABOR
 from comparisons.scenes.materials import (
     Solid,
     kinds_like,

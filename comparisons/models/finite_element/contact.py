@@ -12,7 +12,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.models.finite_element.bodies import BodyPair
-from comparisons.models.nearest_operator import solve_on
+from comparisons.models.operators import solve_on
 from comparisons.models.problem import Problem
 from fem.compliance.operator import FiniteElementCompliance
 

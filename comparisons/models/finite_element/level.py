@@ -14,11 +14,9 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.grid import HatGrid
-from analytic.material import combined_modulus
 from analytic.operators.half_plane import ModelOperator
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
-from comparisons.models.approach import settled
 from comparisons.models.crest import unresolved_crest
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
 from comparisons.models.finite_element.contact import (
@@ -35,9 +33,10 @@ from comparisons.models.finite_element.nonlinear import (
 )
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
-from comparisons.models.nearest_operator import nearest_operator, solve_on, surface_material
+from comparisons.models.operators import LAYERS, operator_of, solve_on
 from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import Levels, Problem
+from comparisons.models.posing import settled
+from comparisons.models.problem import COUPLED, Levels, Problem
 from comparisons.models.window import Window
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
@@ -109,7 +108,7 @@ def finite_element_level(
         level = replace(level, peak_memory=peak_memory(), mesh_field=mesh_field)
         return {stress.friction: replace(level, stress=stress) for stress in stresses}
 
-    return by_friction(problem, "finite_element", solve)
+    return by_friction(problem, problem.scene.finite_element.coupled, solve)
 
 
 @dataclass(frozen=True)
@@ -138,9 +137,8 @@ class _LevelSolution:
     @cached_property
     def model(self) -> ModelOperator:
         """The nearest analytic operator."""
-        scene = self.problem.scene
-        friction = scene.load.friction[0] if scene.finite_element.coupled else 0.0
-        return nearest_operator(scene, self.grid, friction)
+        moved = {COUPLED} if self.problem.scene.finite_element.coupled else set()
+        return operator_of(self.problem, self.grid, LAYERS | moved, roller_moves=False)
 
     @cached_property
     def weighted_gap(self) -> np.ndarray:
@@ -163,11 +161,8 @@ class _LevelSolution:
 
     def unresolved_crest(self, solution: ContactSolution) -> float:
         """As of `comparisons.models.crest`; none where flow decides what a crest bears."""
-        scene = self.problem.scene
-        if scene.finite_element.plastic:
-            return 0.0
-        modulus = combined_modulus(scene.roller.material, surface_material(scene))
-        return unresolved_crest(self.problem, modulus, self.grid, solution)
+        flows = self.problem.scene.finite_element.plastic
+        return 0.0 if flows else unresolved_crest(self.problem, self.grid, solution)
 
     def meshed_contact(
         self, ranges: np.ndarray, start: np.ndarray, body_cache: BodyCache

@@ -10,7 +10,9 @@ from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
 from comparisons.models.finite_element.contact import MutualCompliance
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
-from comparisons.models.problem import Problem, ends_of, patches_of
+from comparisons.models.operators import patches_of
+from comparisons.models.problem import Problem
+from comparisons.models.readings import ends_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import shapes

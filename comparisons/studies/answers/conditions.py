@@ -12,9 +12,9 @@ from dataclasses import asdict
 from analytic.contact.problem import assessed
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator
-from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.common.progress import Stages
 from comparisons.models.level import ModelRun
+from comparisons.models.operators import operator_of
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
@@ -25,7 +25,7 @@ def operators_of(
 ) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
     """Pressure elements and compliance by model."""
     grid = list(runs.values())[-1].finest.grid
-    half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+    half_plane = operator_of(problem, grid, problem.half_plane_effects)
     operators: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
     if "finite_element" in runs and not problem.scene.finite_element.nonlinear:
         from comparisons.models.finite_element.bodies import BodyCache, bodies_of

@@ -14,7 +14,8 @@ from scipy.optimize import minimize_scalar
 from analytic.contact.problem import ContactError
 from comparisons.judging.comparison import relative_l2
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem, half_plane_of, pressed_on
+from comparisons.models.operators import operator_of, pressed_on
+from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
@@ -146,7 +147,7 @@ def _shift(curve: Curve, reference: Curve) -> float:
 def _other_problems(curve: Curve, problem: Problem, level: Level) -> Iterator[Hint]:
     """The scene with twice or half its load, or its radius, on the half-plane."""
     load, radius, grid = problem.hertz.load_per_length, problem.scene.roller.radius, level.grid
-    operator = half_plane_of(problem, grid, 0.0)
+    operator = operator_of(problem, grid, frozenset())
     for kind, factor, words in PROBLEMS:
         fields = {"roller.radius": factor * radius} if kind == "radius" else {}
         changed = replace(problem, scene=problem.scene.unchecked(fields))

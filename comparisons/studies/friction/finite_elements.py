@@ -16,7 +16,7 @@ from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import MutualCompliance, mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import is_layered, nearest_operator
+from comparisons.models.operators import is_layered, operator_of
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -65,7 +65,7 @@ def finite_element_slip(
 def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatGrid) -> SurfacePair:
     """Both surfaces by their finite elements, solved with the nearest analytic operator for a
     model of either compliance."""
-    model, unlike = nearest_operator(problem.scene, grid, 0.0), operator.unlike
+    model, unlike = operator_of(problem, grid), operator.unlike
 
     def solve(apply: Callable, *problem_of_contact: object) -> object:
         start, operator = problem_of_contact[-1], SimpleNamespace(apply=apply)

@@ -22,13 +22,13 @@ from analytic.material import Material
 from analytic.numerics import runs_of
 from analytic.stress.elements import FrictionStress
 from analytic.stress.fatigue import ruiz, smith_watson_topper
-from analytic.stress.field import StressField, friction_field
+from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import Extremum, StressState
-from comparisons.models.half_plane import left_out_at_ends
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem, ends_of
+from comparisons.models.problem import Problem
+from comparisons.models.readings import ends_of, hats_field, left_out_at_ends
 from comparisons.models.window import Window, search_window
 
 # Pitches from an end of contact where the surface's stress is looked at too: tension, traction and
@@ -139,10 +139,8 @@ def half_plane_slip(
     state, x = slipped.states[-1], surface_places(problem, slipped, window)
     beside, bulk = _traction_stress(problem, grid, state, -1), bulk_stress(problem, -1)
     searched = search_window(problem, window)
-    spread = (searched.x[0], searched.x[-1]), searched.z
-    steps = searched.subdivisions(grid.pitch), "hat", searched.stride(grid.pitch)
-    normal = friction_field(grid.x, state.normal.pressure, *spread, *steps)
-    traction = friction_field(grid.x, state.traction, *spread, *steps).stress.traction
+    normal = hats_field(grid, state.normal.pressure, searched)
+    traction = hats_field(grid, state.traction, searched).stress.traction
     below = np.meshgrid(normal.x, normal.z)
     stress = normal.stress.normal.plus(1.0, traction)
     stress = stress.plus(1.0, ends_stress(problem, grid, state)(*below))

@@ -14,10 +14,10 @@ import numpy as np
 from analytic.heat.moving_source import line_source
 from analytic.numerics import runs_of
 from comparisons.models.finite_element.bodies import rough_support
-from comparisons.models.half_plane import left_out_at_ends
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import is_layered
+from comparisons.models.operators import is_layered
 from comparisons.models.problem import Problem
+from comparisons.models.readings import left_out_at_ends
 from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
     FARTHEST,

@@ -16,9 +16,15 @@ from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
-from comparisons.models.half_plane import ends_of_contact, field_on, left_out_at_ends, stresses_at
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem, ends_of
+from comparisons.models.problem import Problem
+from comparisons.models.readings import (
+    ends_of,
+    ends_of_contact,
+    field_on,
+    left_out_at_ends,
+    stresses_at,
+)
 from comparisons.models.window import Window, search_window
 
 if TYPE_CHECKING:

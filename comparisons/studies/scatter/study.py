@@ -30,9 +30,8 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.contact import values_of
 from comparisons.judging.study import SCATTER as NAME
 from comparisons.judging.study import Run, Solved, Study
-from comparisons.models.approach import load_on_layer
-from comparisons.models.half_plane import expected_of, half_plane_level
-from comparisons.models.posing import problem_of
+from comparisons.models.analytic import expected_of, half_plane_level
+from comparisons.models.posing import load_on_layer, problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene

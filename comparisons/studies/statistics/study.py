@@ -46,9 +46,10 @@ from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.figure import Column, Findings, Series, columns_of
 from comparisons.judging import contact
 from comparisons.judging.study import Solved
-from comparisons.models.half_plane import expected_of
+from comparisons.models.analytic import expected_of
 from comparisons.models.level import STRAIN, Level, MeshField, refuse_too_large
-from comparisons.models.problem import Problem, half_plane_of, pressed_on
+from comparisons.models.operators import operator_of, pressed_on
+from comparisons.models.problem import Problem
 
 if TYPE_CHECKING:
     from analytic.statistics.rough_bodies import RoughContact
@@ -180,7 +181,7 @@ def _pressed(problem: Problem, load: float, profile: Profile, pitch: float) -> l
     """FIGURES of the elastic half-plane, and how many patches there are."""
     grid = _grid(problem, load, profile, pitch)
     traced = replace(problem, surface=replace(problem.surface, profile=profile))
-    operator = half_plane_of(problem, grid, 0.0)
+    operator = operator_of(problem, grid, frozenset())
     solution = pressed_on(traced, grid, operator, Constraints(load=load))
     pressure = solution.pressure
     if not solution.converged or pressure[0] > 0.0 or pressure[-1] > 0.0:

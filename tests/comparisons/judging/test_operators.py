@@ -12,13 +12,13 @@ from analytic.exact.layers import TABLE
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
-from comparisons.judging.effects.catalogue import COUPLED
-from comparisons.judging.ladder.operators import CAP, carried, operator_level, words_of
+from comparisons.judging.ladder.rungs import carried, words_of
 from comparisons.judging.study import Case, Solved
 from comparisons.judging.yielding import flow_assessment
-from comparisons.models.half_plane import half_plane_on
+from comparisons.models.analytic import CAP, analytic_level
 from comparisons.models.level import ModelRun
 from comparisons.models.posing import problem_of
+from comparisons.models.problem import COUPLED
 from comparisons.models.smooth import closed_form
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
@@ -29,6 +29,12 @@ BODIES = {"roller": {"radius": 8e-3, **STEEL}, "body": dict(STEEL), "load": LOAD
 FIELD = {"stress": {"points": [60, 20]}}
 
 
+def analytic_at(posed, pitch, *effects, window=None):
+    how = posed.grid(pitch), window, Stages()
+    [level] = analytic_level(posed, frozenset(effects), *how).values()
+    return level
+
+
 @pytest.mark.parametrize("case", CASES, ids=[f"{c['base']}-{c['a_over_t']}" for c in CASES])
 def test_exact_layers(case):
     """The coarsest level and the third: the peak of second order, and pressures on the way."""
@@ -37,7 +43,7 @@ def test_exact_layers(case):
     posed = problem(tables)
     exact, half_width = known["peak_pressure"], 0.5 * known["contact_length"]
     for pitch, close in ((posed.pitches[0], 6e-4), (posed.pitches[2], 4e-5)):
-        [level] = operator_level(posed, frozenset({"finite_size"}), (0.0,), pitch, None).values()
+        level = analytic_at(posed, pitch, "finite_size")
         assert level.solution.converged
         assert level.solution.pressure.max() == pytest.approx(exact, rel=close)
         assert abs(0.5 * level.contact_length - half_width) < 0.1 * pitch
@@ -52,7 +58,7 @@ def test_westergaard_s_wave(mean_pressure):
     posed = problem(Scene.read("periodic").tables | {"load": {"mean_pressure": mean_pressure}})
     exact, off = closed_form(posed), []
     for pitch in (posed.pitches[0], posed.pitches[2]):
-        [level] = operator_level(posed, frozenset(), (0.0,), pitch, None).values()
+        level = analytic_at(posed, pitch)
         off.append(level.solution.pressure.max() / exact.peak_pressure - 1.0)
         assert abs(level.contact_length - exact.contact_length) < 0.2 * pitch
     assert off[1] < 1.5e-4 and 12.0 < off[0] / off[1] < 22.0
@@ -63,7 +69,7 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | FIELD | {"coating": coating})
     window, pitch = window_of(posed), posed.pitches[0]
-    [coated] = operator_level(posed, frozenset({"coating"}), (0.3,), pitch, window).values()
+    coated = analytic_at(posed, pitch, "coating", window=window)
     plain = half_plane_at(posed, pitch, fields=True)
     assert coated.solution.pressure == pytest.approx(
         plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
@@ -79,10 +85,10 @@ def test_traction_moves_both_surfaces_of_a_coated_body(softer):
     roller = {"radius": 8e-3, "youngs_modulus": softer * 210e9, "poissons_ratio": 0.1}
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | {"roller": roller, "coating": coating})
-    pitch, size = posed.pitches[0], 0.3 * posed.dundurs_beta
-    [coated] = operator_level(posed, frozenset({"coating", COUPLED}), (0.3,), pitch, None).values()
-    [moved] = half_plane_on(posed, posed.grid(pitch), size, (0.3,), None, Stages()).values()
-    [still] = half_plane_on(posed, posed.grid(pitch), 0.0, (0.3,), None, Stages()).values()
+    pitch = posed.pitches[0]
+    coated = analytic_at(posed, pitch, "coating", COUPLED)
+    moved = analytic_at(posed, pitch, COUPLED)
+    still = analytic_at(posed, pitch)
     peak = posed.hertz.peak_pressure
     assert coated.solution.pressure == pytest.approx(moved.solution.pressure, abs=1e-7 * peak)
     assert np.abs(moved.solution.pressure - still.solution.pressure).max() > 1e-3 * peak
@@ -98,7 +104,7 @@ def test_what_an_operator_carries():
     held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
     assert held == {"finite_size", COUPLED, CAP}
     assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"
-    [capped] = operator_level(posed, frozenset({CAP}), (0.0,), posed.pitches[0], None).values()
+    capped = analytic_at(posed, posed.pitches[0], CAP)
     pressure = capped.solution.pressure
     assert pressure.max() == pytest.approx(0.9 * highest)
 
@@ -111,10 +117,8 @@ def test_waves_of_a_finished_map(place):
     point = content["points"][place]
     values = {content[axis]["group"]: point[axis] for axis in "xy"}
     posed = problem_of(scene_with(Scene.of(content["scene"], Origin("map")), values))
-    held, pitch = frozenset({"exact_circle", "finite_strain"}), posed.pitches[0]
-    [level] = operator_level(
-        posed, held, (0.0,), pitch / 2.0 ** (point["levels"] - 1), None
-    ).values()
+    pitch = posed.pitches[0] / 2.0 ** (point["levels"] - 1)
+    level = analytic_at(posed, pitch, "exact_circle", "finite_strain")
     peak = level.solution.pressure.max()
     known = point["quantities"]["peak_pressure"]
     error = peak / known["finite_element"] - 1.0

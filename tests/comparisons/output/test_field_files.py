@@ -14,7 +14,7 @@ import pyvista
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
-from comparisons.models.half_plane import stresses_at
+from comparisons.models.readings import stresses_at
 from comparisons.output.arrays import levels_by_folder
 from comparisons.output.field_files import (
     CELL_TYPES,

@@ -11,8 +11,8 @@ from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import unsolved
+from comparisons.models.analytic import expected_with, half_plane_level
 from comparisons.models.finite_element import level
-from comparisons.models.half_plane import expected_with, half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined

@@ -14,7 +14,8 @@ from comparisons.judging.model_error.show import model_error_rows
 from comparisons.judging.verdict.headline import headline
 from comparisons.judging.verdict.within import within_of
 from comparisons.judging.yielding import lines
-from comparisons.models.problem import Levels, half_plane_of, pressed_on
+from comparisons.models.operators import operator_of, pressed_on
+from comparisons.models.problem import Levels
 from comparisons.scenes.scene import with_law
 
 # a/R = 0.2: the exact circle counts, and finite strain by far more
@@ -57,7 +58,7 @@ def test_within_linear_elasticity_the_error_is_that_of_the_circle():
         run.problem, scene=run.problem.scene.unchecked({"finite_element.roller_shape": "circle"})
     )
     circle.__dict__["gap"] = roller_gap(run.problem.scene.roller.radius, None, "circle")
-    exact = pressed_on(circle, level.grid, half_plane_of(circle, level.grid)).pressure.max()
+    exact = pressed_on(circle, level.grid, operator_of(circle, level.grid)).pressure.max()
     error = run.model_errors.one(quantity="peak_pressure")
     known = level.solution.pressure.max() / exact - 1.0
     assert abs(known) > 0.002

@@ -17,7 +17,7 @@ from scenes import (
     run_of,
 )
 
-from comparisons.models.half_plane import ends_of_contact, left_out_at_ends, stresses_at
+from comparisons.models.readings import ends_of_contact, left_out_at_ends, stresses_at
 from comparisons.models.window import window_of
 from comparisons.studies.heat.finite_elements import finite_element_stress, solved_heat
 

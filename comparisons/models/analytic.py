@@ -1,0 +1,256 @@
+"""Every analytic model of a scene on one level of refinement.
+
+A model is the half-plane and the effects that it has beside: the LAYERS and the coupling of
+`comparisons.models.operators`, an exact circle (`exact_circle`), the deformed surface
+(`finite_strain`), a CAP on the pressure. Nothing is meshed: the compliance of a layer or a coating
+is a convolution, and its stresses are those of a half-plane and what the base adds
+(`analytic.layers.stress`)."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+
+import numpy as np
+
+from analytic.contact.deformed_surface import DeformedContact
+from analytic.contact.end_stress import EndStress
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid, roller_gap
+from analytic.layers.stress import AddedStress
+from analytic.material import Material
+from analytic.stress.field import StressField
+from analytic.stress.maxima import stress_maxima
+from analytic.stress.periodic import PeriodicRest
+from analytic.stress_state import StressState
+from comparisons.common.progress import Stages, peak_memory
+from comparisons.models.crest import unresolved_crest
+from comparisons.models.level import ExpectedCost, Level, StressResult, by_friction, highest
+from comparisons.models.operators import (
+    LAYERS,
+    body_operator,
+    is_layered,
+    layered_body,
+    operator_of,
+    patches_of,
+    pressed_on,
+    solve_on,
+)
+from comparisons.models.problem import COUPLED, TABOR, Problem
+from comparisons.models.readings import beside_hats, field_on
+from comparisons.models.window import Window, search_window
+from comparisons.scenes.scene import Scene
+
+# Effects that operators and gaps can have; what is quadratic on the deformed surface beside.
+CARRIED = LAYERS | {COUPLED, "exact_circle"}
+CAP = "cap"  # on the pressure, where the body yields and the scene has no hardness
+THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are worth their waves
+# Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
+SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
+# Of a window far wider than the contact: each point of the ring on which pressures are convolved,
+# beyond the first, and each where extremes are searched; measured to 2 million.
+FREE_POINTS, SECONDS_PER_POINT, BYTES_PER_POINT, BYTES_PER_SEARCHED = 1e5, 2e-5, 130.0, 90.0
+
+
+def expected_of(count: int) -> ExpectedCost:
+    """What a level of so many pressure elements will take."""
+    return ExpectedCost(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
+
+
+def expected_with(problem: Problem, pitch: float, window: Window | None) -> ExpectedCost:
+    """The same with stresses on a window."""
+    cost = expected_of(problem.grid(pitch).count)
+    if window is None:
+        return cost
+    pressed, searched = np.ptp(problem.extent), search_window(problem, window)
+    pressed *= 1.0 if problem.period is None else 3.0  # three periods of pressures
+    ring = (np.ptp(window.ends) + pressed) * window.subdivisions(pitch) / pitch
+    points = max(0.0, ring - FREE_POINTS)
+    memory = BYTES_PER_POINT * points + BYTES_PER_SEARCHED * len(searched.x) * len(searched.z)
+    seconds = max(cost.seconds, SECONDS_PER_POINT * points)
+    return ExpectedCost(cost.unknowns, max(cost.memory, memory), seconds)
+
+
+def carried_linear(scene: Scene, effects: Iterable[str]) -> frozenset[str]:
+    """Which of the whole's effects an operator can have."""
+    if scene.periodic:
+        return frozenset()
+    alone = {"finite_size"} if scene.body.thickness is None else set()
+    return frozenset(set(effects) & CARRIED - alone)
+
+
+def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]:
+    """The effects of the whole that the half-plane has on its deformed surface: what is quadratic
+    there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
+    scene, effects = problem.scene, set(effects)
+    bounded = is_layered(scene) or scene.periodic or scene.body.width is not None
+    if "finite_strain" not in effects or bounded:
+        return frozenset()
+    moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
+    return frozenset(effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else set()))
+
+
+def half_plane_level(
+    problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
+) -> dict[float, Level]:
+    """Solve one level of the scene's half-plane."""
+    model = problem, problem.half_plane_effects, problem.grid(pitch)
+    return analytic_level(*model, window, stages, fields)
+
+
+def analytic_level(
+    problem: Problem,
+    effects: frozenset[str],
+    grid: HatGrid,
+    window: Window | None,
+    stages: Stages,
+    fields: bool = False,
+) -> dict[float, Level]:
+    """Solve one level at each of the scene's friction coefficients: contact, and in a window the
+    largest stresses.
+
+    effects  that the model has beside the half-plane's assumptions
+    fields   give all stresses on the window, too; of bodies without a layer"""
+    if CAP in effects:
+        cap = {"body.hardness": TABOR * problem.scene.body.yield_stress}
+        problem = replace(problem, scene=problem.scene.unchecked(cap))
+
+    def solve(problem: Problem) -> dict[float, Level]:
+        return _level(problem, effects, grid, window, stages, fields)
+
+    return by_friction(problem, COUPLED in effects, solve)
+
+
+def _level(
+    problem: Problem,
+    effects: frozenset[str],
+    grid: HatGrid,
+    window: Window | None,
+    stages: Stages,
+    fields: bool,
+) -> dict[float, Level]:
+    """At friction coefficients that share a contact."""
+    with stages.stage("contact", "half-plane: contact"):
+        solution = _pressed(problem, effects, grid)
+        moved = body_operator(problem, grid, effects).apply(solution.pressure)
+        level = Level(
+            grid=grid,
+            solution=solution,
+            displacement=moved / grid.weights,
+            patches=patches_of(grid, solution),
+            seconds=stages.seconds,
+            unknowns=grid.count,
+            unresolved_crest=unresolved_crest(problem, grid, solution, effects),
+            expected_seconds=expected_with(problem, grid.pitch, window).seconds,
+        )
+    if window is None:
+        level = replace(level, peak_memory=peak_memory())
+        return dict.fromkeys(problem.scene.load.friction, level)
+    with stages.stage("stresses", "half-plane: stresses"):
+        stresses = tuple(_stresses(problem, effects, level, window, fields))
+    memory = peak_memory()
+    return {s.friction: replace(level, stress=s, peak_memory=memory) for s in stresses}
+
+
+def _pressed(problem: Problem, effects: frozenset[str], grid: HatGrid) -> ContactSolution:
+    """The contact, on the deformed surface where the effects hold finite strain."""
+    shape = "circle" if "exact_circle" in effects else "parabola"
+    operator = operator_of(problem, grid, effects)
+    solution = pressed_on(problem, grid, operator, gap=problem.gap_under(shape))
+    if "finite_strain" not in effects:
+        return solution
+    scene, profile = problem.scene, problem.surface.profile
+    height = np.zeros_like if profile is None else profile.spline()
+    sagitta = roller_gap(scene.roller.radius, None, shape)
+    bodies = scene.body.material, scene.roller.material, height, sagitta
+    deformed = DeformedContact(grid, *bodies, problem.knots)
+    how = grid.weights, problem.constraints()
+    return deformed.pressed(lambda gap, start: solve_on(operator, gap, *how, start), solution)
+
+
+def why_no_stresses(problem: Problem, window: Window | None) -> str | None:
+    """Why there are no stresses of a layered body, or None."""
+    body = layered_body(problem.scene)
+    if window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
+        return None
+    return "the layer is too thin for the waves of its stresses"
+
+
+@dataclass(frozen=True)
+class _Side:
+    """The layer, or what lies below it; of a body without one all of it."""
+
+    material: Material
+    added: AddedStress | None
+    below: bool
+    rest: EndStress | PeriodicRest  # what hats leave out
+    searched: Window  # from which extremes are searched
+
+    def beside(self, friction: float, x: np.ndarray, z: np.ndarray) -> StressState:
+        """Stresses beside those of the half-plane's hats."""
+        rest = self.rest.at(friction)(x, z)
+        if self.added is None:
+            return rest
+        return rest.plus(1.0, self.added.at(friction, x, z, self.below))
+
+    def fields(self, level: Level, frictions: tuple[float, ...]) -> list[StressField]:
+        """One a friction coefficient, where extremes are searched."""
+        made = field_on(level, self.searched, self.rest)
+        fields = [made.at(friction) for friction in frictions]
+        if self.added is None:
+            return fields
+        parts = self.added.field(made.x, made.z, self.below)
+        added = (StressState(*(parts[:3] + friction * parts[3:])) for friction in frictions)
+        both = (field.stress.plus(1.0, more) for field, more in zip(fields, added, strict=True))
+        return [StressField(made.x, made.z, stress) for stress in both]
+
+
+def _stresses(
+    problem: Problem, effects: frozenset[str], level: Level, window: Window, fields: bool
+) -> Iterator[StressResult]:
+    """Extremes off the grid, of both sides of an interface, and for `fields` all on the window."""
+    x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
+    sides, frictions = _sides(problem, effects, level, window), problem.scene.load.friction
+    searched = zip(*(side.fields(level, frictions) for side in sides), strict=True)
+    shown = field_on(level, window, sides[0].rest) if fields else None
+    for friction, by_side in zip(frictions, searched, strict=True):
+        largest = [
+            stress_maxima(
+                x,
+                pressure,
+                friction,
+                field,
+                side.material.poissons_ratio,
+                beside=partial(side.beside, friction),
+                cells=problem.asperities,
+            )
+            for side, field in zip(sides, by_side, strict=True)
+        ]
+        maxima = {
+            # of each asperity (3, k) the side with the larger value
+            name: reduce(lambda a, b: np.where(b[0] > a[0], b, a), (s.cells[key] for s in largest))
+            for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
+        }
+        extremes = {name: highest(cells) for name, cells in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
+        field = None if shown is None else shown.at(friction).stress
+        yield StressResult(friction, extremes, maxima, field)
+
+
+def _sides(problem: Problem, effects: frozenset[str], level: Level, window: Window) -> list[_Side]:
+    """The layer and what lies below it; the body itself where there is no layer."""
+    body, searched = layered_body(problem.scene, effects), search_window(problem, window)
+    rest = beside_hats(problem, level)
+    if body is None:
+        return [_Side(problem.scene.body.material, None, False, rest, searched)]
+    reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])
+    added = AddedStress.of(body, level.grid.x, level.solution.pressure, reach)
+    is_inside = searched.z <= body.thickness * (1.0 + 1e-12)
+    inside, below = np.minimum(searched.z[is_inside], body.thickness), searched.z[~is_inside]
+    goes_on = not body.rigid and len(below) > 0
+    if goes_on:  # both sides of the interface are searched
+        inside = np.append(inside[inside < body.thickness], body.thickness)
+        below = np.append(body.thickness, below)
+    layer = _Side(body.material, added, False, rest, replace(searched, z=inside))
+    if not goes_on:
+        return [layer]
+    return [layer, _Side(body.base, added, True, rest, replace(searched, z=below))]
