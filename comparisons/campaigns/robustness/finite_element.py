@@ -158,7 +158,7 @@ def hertz_figures(peak: float = PEAK, **tables: dict) -> CaseFigures:
 
 def shear_figures(**tables: dict) -> CaseFigures:
     problem, level = solved(tables | {"stress": {"points": [40, 20]}})
-    hertz, largest = problem.hertz, level.stresses[0].extremes["tau1"]
+    hertz, largest = problem.hertz, level.stress.extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
     return level_figures(
         level,
