@@ -301,7 +301,7 @@ def blocks(run: Run) -> list[Block]:
     findings = run.findings[NAME]
     said = " ".join(f"{line[0].upper()}{line[1:]}." for line in notes(findings))
     shown = Box("on-screens", (Pictures((NAME,)),))  # too wide to be read on paper
-    return [Block("cost", (shown, table(findings), Note(f"{NOTE} {said}")))]
+    return [Block("cost", (shown, table(findings), Note(f"{NOTE} {said}")), "Cost")]
 
 
 def picture(run: Run) -> style.Picture | None:

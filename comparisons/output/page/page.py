@@ -192,26 +192,15 @@ def _after(run: Run) -> Iterator[Block]:
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
     far = NOTES["far_boundary"] if run.plan.domain_check else ""
     why = verification.refinement_text(run)
-    note = Note(NOTES["levels"].format(far=far, norms=norms, refinement=why))
-    levels = Heading("All figures"), verification.convergence_tables, note
-    yield Block("convergence", (_refinement, *levels), "Convergence")
+    said = NOTES["levels"].format(far=far, norms=norms, refinement=why)
+    note = Note(said + _of_layered(run, "layered_levels"))
+    items = Pictures(("convergence",)), verification.levels_tables, note, Heading("Words")
+    yield Block("convergence", (*items, Names(verification.WORDS)), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
-    yield Block("cost", (verification.cost_table,), "Cost")
     yield Block("checks", (verification.check_table, Note(NOTES["checks"])), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
     yield Block("record", (_record,), "Record")
-
-
-def _refinement(run: Run) -> list:
-    """The judged figures over the levels, and what the columns mean; nothing where none is."""
-    if (judged := verification.judged_table(run)) is None:
-        return []
-    note = Note(NOTES["orders"] + _of_layered(run, "layered_levels"))
-    halves = [Box("half", (Heading("Words"), Names(verification.WORDS)))]
-    if (validation := verification.validation_table(run)) is not None:
-        halves.append(Box("half", (validation, Note(NOTES["validation"]))))
-    return [judged, note, Pictures(("convergence",)), Box("columns", tuple(halves))]
 
 
 def _record(run: Run) -> Names:

@@ -9,34 +9,51 @@ import numpy as np
 from comparisons.common.numbers import plain
 from comparisons.drawing import style
 from comparisons.drawing.curves import columns, joint_legend
-from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import LABELS
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.judging import comparison, contact
 from comparisons.judging.study import Run
-from comparisons.output.page.tables.verification import DIFFERENCE, JudgedSequence, judged_sequences
+from comparisons.output.page.tables.verification import row_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Drawn
 
 ABREAST = 4  # panels across a wide page
 HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.5, 0.5  # inches: legend, a panel's title, panel, its axis
 LEFT, BETWEEN = 0.62, 0.5  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
+DIFFERENCE = "difference"  # of both models, in place of one
 # The difference is often the finite elements' error alone: pale around their line.
 LOOKS = style.LINES | {DIFFERENCE: {**style.PALE, "color": style.DIFFERENCE["color"]}}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
 SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
 
 
+def judged_figures(run: Run) -> dict[str, list[Figure]]:
+    """Those of the models and of their difference, by quantity and friction coefficient."""
+    panels: dict[str, list[Figure]] = {}
+    judged = [name for name in QUANTITIES if name in run.problem.scene.tolerances]
+    known = [f for f in run.figures if f.study in (contact.NAME, comparison.NAME) and f.levels]
+    known = [figure for figure in known if figure.quantity in judged]
+    for figure in sorted(known, key=lambda f: (judged.index(f.quantity), f.friction)):
+        if name := row_name(run, figure.quantity, figure.friction):
+            panels.setdefault(name, []).append(figure)
+    return panels
+
+
 def convergence_picture(run: Run) -> style.Picture | None:
     """A panel for each judged figure; None where nothing is judged on several levels."""
-    known = [s for s in judged_sequences(run) if len(s.figure.levels) > 2]
-    panels = grouped(known, lambda sequence: sequence.name)
+    panels = {n: of for n, of in judged_figures(run).items() if len(of[0].levels) > 2}
     if not panels:
         return None
-    said = "; ".join(f"{s.name}, {NAMES[s.source]}: {s.known.behaviour}" for s in known)
+    said = "; ".join(
+        f"{name}, {NAMES[source_of(figure)]}: {figure.uncertainty.convergence.behaviour}"
+        for name, figures in panels.items()
+        for figure in figures
+    )
     return style.picture(
-        _drawn(panels),
+        _drawn(run, panels),
         f"Error over element size of each judged figure. {said}.",
         "Distance from the extrapolated value over the size of the pressure elements, both "
         "logarithmic; without marks, the formal order. A bar: the stated uncertainty of "
@@ -45,14 +62,21 @@ def convergence_picture(run: Run) -> style.Picture | None:
     )
 
 
-def _drawn(panels: list[list[JudgedSequence]]) -> "Figure":
+def source_of(figure: Figure) -> str:
+    """A model, or DIFFERENCE."""
+    return DIFFERENCE if figure.against else figure.source
+
+
+def _drawn(run: Run, panels: dict[str, list[Figure]]) -> "Drawn":
     abreast = -(-len(panels) // -(-len(panels) // ABREAST))  # rows of about equal lengths
     heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(-(-len(panels) // abreast))]
     drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
     sides = columns(drawn, heights, len(panels), abreast, LEFT, BETWEEN, BETWEEN)
-    for number, panel in enumerate(panels):
+    pitches = np.array([level.grid.pitch for level in next(iter(run.runs.values())).levels])
+    for number, (name, figures) in enumerate(panels.items()):
         axes = sides[number % abreast][number // abreast]
-        _draw(axes, panel)
+        _draw(axes, figures, 1e6 * pitches)
+        axes.set_title(name.replace(", friction", ",\nfriction"))
         if number % abreast == 0:
             axes.set_ylabel("error [%]")
         if number + abreast >= len(panels):
@@ -61,26 +85,27 @@ def _drawn(panels: list[list[JudgedSequence]]) -> "Figure":
     return drawn
 
 
-def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
+def _draw(axes: "Axes", figures: list[Figure], pitch: np.ndarray) -> None:
     """All models' errors of one figure [%] over the pitch [µm]."""
     largest = 0.0, 0.0
-    for sequence in panel:
-        pitch, error = 1e6 * np.array(sequence.pitches), 100.0 * np.array(sequence.errors)
+    for figure in figures:
+        known, source = figure.uncertainty.convergence, source_of(figure)
+        error = np.abs(np.array(figure.levels) - known.limit)
+        error *= 100.0 / (1.0 if figure.against else figure.scale)
         seen = np.where(error > 100.0 * LEAST, error, np.nan)
-        look, name = LOOKS[sequence.source], NAMES[sequence.source]
-        axes.plot(pitch, seen, marker="o", markersize=3.5, label=name, **look)
+        look = LOOKS[source]
+        axes.plot(pitch, seen, marker="o", markersize=3.5, label=NAMES[source], **look)
         bar = {**look, "linestyle": "none", "marker": "_", "markersize": 13}
-        stated = 100.0 * sequence.figure.uncertainty.parts["discretisation"]
+        stated = 100.0 * figure.uncertainty.parts["discretisation"]
         if np.isfinite(stated) and stated > 0.0:
             axes.plot(pitch[-1], stated, markeredgewidth=1.3 * look["linewidth"], **bar)
         if np.isfinite(seen).any():
             largest = max(largest, (float(np.nanmax(seen)), float(pitch[np.nanargmax(seen)])))
-    order = panel[0].known.formal_order
-    pitch = 1e6 * np.array([max(panel[0].pitches), min(panel[0].pitches)])
     if largest[0] > 0.0:
-        slope = largest[0] * (pitch / largest[1]) ** order
+        order = figures[0].uncertainty.convergence.formal_order
+        slope = largest[0] * (pitch[[0, -1]] / largest[1]) ** order
         look = {**style.REFERENCE, "linestyle": SLOPES.get(order, "-.")}
-        axes.plot(pitch, slope, label=f"slope of order {plain(order)}", **look)
+        axes.plot(pitch[[0, -1]], slope, label=f"slope of order {plain(order)}", **look)
     axes.set_xscale("log")
     if any(np.nanmax(line.get_ydata(), initial=0.0) > 0.0 for line in axes.lines):
         axes.set_yscale("log")
@@ -96,8 +121,6 @@ def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:
     else:
         axes.set_yticks([])
         axes.annotate("no change but rounding", (0.5, 0.5), xycoords="axes fraction", ha="center")
-    ticks = sorted({1e6 * pitch for sequence in panel for pitch in sequence.pitches})
-    axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
+    axes.set_xticks(pitch, [f"{size:.3g}" for size in pitch])
     axes.minorticks_off()
-    axes.set_xlim(0.8 * ticks[0], 1.25 * ticks[-1])
-    axes.set_title(panel[0].name.replace(", friction", ",\nfriction"))
+    axes.set_xlim(0.8 * pitch[-1], 1.25 * pitch[0])
