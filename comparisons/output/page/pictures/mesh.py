@@ -1,7 +1,6 @@
 """The finite-element mesh: the whole block, under the contact, under the highest pressure.
 
-Elements smaller than the picture can show are drawn as what they would look like: a dark patch.
-"""
+Edges are drawn as pixels: as curves they would take megabytes. What is finer than these is dark."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -16,10 +15,9 @@ from comparisons.judging.study import Run
 from meshes.block import real_points, unique_edges
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-CELL = 0.028  # inches: edges shorter than that make the cell that they lie in dark
+FINE = 0.028  # inches: what has no longer edge is all dark
 COLOUR = 0.12, 0.31, 0.47
 LEFT, RIGHT = 0.68, 0.22  # inches beside a mesh
 LEAST, MOST = 0.8, 1.9  # inches: its height
@@ -54,7 +52,7 @@ def mesh_pictures(run: Run) -> list[Picture]:
     pictures = []
     for words, view in views.items():
         drawn = _drawn(points, pairs, view)
-        if not drawn.axes[0].lines:  # of a thin layer: all is dark
+        if drawn is None:  # of a thin layer: all is dark
             continue
         caption = f"The {words}; {surface}." if pictures else f"Mesh of the {words}: {known}"
         said = f"Finite-element mesh of the {words}: {count}."
@@ -62,65 +60,26 @@ def mesh_pictures(run: Run) -> list[Picture]:
     return pictures
 
 
-def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Figure":
-    """Edges between points (n, 2) from a left to a right end and down to a depth [m]."""
+def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Figure | None":
+    """Edges between points (n, 2) from a left to a right end and down to a depth [m]; None where
+    all are too short to be seen."""
+    from matplotlib.collections import LineCollection
+
     unit = scale_of(view, "m")
     low, high, depth = (end / unit.factor for end in view)
     share = view[2] / (view[1] - view[0])
     width = max(min(THIRD - LEFT - RIGHT, MOST / share), NARROWEST)
     height = np.clip(width * share, LEAST, MOST)
+    ends = (points / unit.factor)[pairs]
+    inside = (ends[:, :, 0].max(axis=1) >= low) & (ends[:, :, 0].min(axis=1) <= high)
+    ends = ends[inside & (ends[:, :, 1].min(axis=1) <= depth)]
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    if lengths.max() * width < FINE * (high - low):
+        return None
     drawn, [axes] = panels(THIRD, [(0.14, height)], LEFT, THIRD - LEFT - width)
-    points = points / unit.factor
-    top = min(0.0, max(points[:, 1].min(), -0.2 * depth)) - 0.03 * depth
+    axes.add_collection(LineCollection(ends, colors=[COLOUR], linewidths=0.4, rasterized=True))
+    top = min(0.0, max(ends[:, :, 1].min(), -0.2 * depth)) - 0.03 * depth
     labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"z [{unit.name}]"}
     axes.set(xlim=(low, high), ylim=(depth, top), **labels)
     axes.grid(False)
-    (x, other_x), (z, other_z) = points[pairs.T, 0], points[pairs.T, 1]
-    inside = (np.maximum(x, other_x) >= low) & (np.minimum(x, other_x) <= high)
-    pairs = pairs[inside & (np.minimum(z, other_z) <= depth)]
-    ends = points[pairs]
-    cell = CELL * (high - low) / width
-    visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
-    # one curve with breaks: a twentieth of the size of as many curves as edges
-    broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
-    if visible.any():
-        axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
-    if not visible.all():
-        short = ends[~visible]
-        points = np.vstack([short.mean(axis=1), *short.swapaxes(0, 1)])
-        _dark_cells(axes, points, (low, high, depth), cell)
     return drawn
-
-
-def _strokes(edges: np.ndarray, pause: int) -> list[int]:
-    """Points in the order of a pen that draws every edge (n, 2) once; `pause`: it is lifted."""
-    beside: dict[int, dict[int, None]] = {}
-    for one, other in edges.tolist():
-        beside.setdefault(one, {})[other] = None
-        beside.setdefault(other, {})[one] = None
-    order: list[int] = []
-    for start in beside:
-        while beside[start]:
-            at = start
-            while beside[at]:
-                order.append(at)
-                onward = next(iter(beside[at]))
-                del beside[at][onward], beside[onward][at]
-                at = onward
-            order += [at, pause]
-    return order
-
-
-def _dark_cells(
-    axes: "Axes", points: np.ndarray, bounds: tuple[float, float, float], cell: float
-) -> None:
-    """Cells that hold points (n, 2), drawn dark."""
-    low, high, depth = bounds
-    top = points[:, 1].min()
-    shape = int(np.ceil((depth - top) / cell)), int(np.ceil((high - low) / cell))
-    at = np.floor((points - (low, top)) / cell).astype(int)[:, ::-1]
-    at = at[np.all((at >= 0) & (at < shape), axis=1)]
-    dark = np.zeros((*shape, 4))
-    dark[tuple(at.T)] = *COLOUR, 1.0
-    extent = (low, low + shape[1] * cell, top + shape[0] * cell, top)
-    axes.imshow(dark, extent=extent, interpolation="none", aspect="auto", zorder=1.5)
