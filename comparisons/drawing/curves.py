@@ -25,32 +25,25 @@ def panels(
     left: float = LEFT,
     right: float = style.RIGHT,
     foot: float = FOOT,
+    abreast: int = 1,
+    between: float = 0.0,
+    count: int | None = None,
 ) -> "tuple[Figure, list[Axes]]":
-    """A figure `width` inches wide with panels by their space above and height in inches."""
+    """A figure with panels, row by row, all in inches.
+
+    rows                  space above each row and its height; foot: space below the last
+    left, right, between  space beside all panels, and from one to the next of those `abreast`
+    count                 how many there are, where the last row is not full"""
     drawn = style.figure(width, sum(map(sum, rows)) + foot)
-    return drawn, style.stacked(drawn, rows, left, right)
-
-
-def columns(
-    drawn: "Figure",
-    rows: Sequence[tuple[float, float]],
-    count: int,
-    abreast: int,
-    left: float,
-    right: float,
-    between: float,
-) -> "list[list[Axes]]":
-    """So many panels, row by row in columns side by side, all in inches.
-
-    rows            space above each panel of a column and its height
-    left, right     space beside all columns; between: from one to the next"""
-    width = drawn.get_figwidth()
     share = (width - left - right + between) / abreast
-    made = []
-    for side in range(abreast):
-        start, own = left + side * share, rows[: -(-(count - side) // abreast)]
-        made.append(style.stacked(drawn, own, start, width - start - share + between))
-    return made
+    sides = [
+        style.stacked(drawn, rows, left + k * share, width - left - (k + 1) * share + between)
+        for k in range(abreast)
+    ]
+    made = [panel for row in zip(*sides, strict=True) for panel in row]
+    for panel in made[count:] if count else ():
+        panel.remove()
+    return drawn, made[:count]
 
 
 def names_above(width: float, names: int) -> tuple[int, float]:

@@ -20,9 +20,8 @@ from comparisons.common.numbers import (
     scale_of,
     with_unit,
 )
-from comparisons.drawing import style
+from comparisons.drawing import curves, style
 from comparisons.drawing.blocks import Block, Note, Pictures, TableRow, TextTable, table_rows
-from comparisons.drawing.curves import columns
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.judging import contact
@@ -320,10 +319,9 @@ def _drawn(panels: list[Waterfall]) -> "Drawn":
     across = (width - NAMES - RIGHT - BETWEEN * (abreast - 1)) / abreast
     stacks = -(-len(panels) // abreast)
     tall = [(TITLE + (FOOT if k else TOP), ROW * len(rows)) for k in range(stacks)]
-    drawn = style.figure(width, sum(map(sum, tall)) + FOOT)
-    sides = columns(drawn, tall, len(panels), abreast, NAMES, RIGHT, BETWEEN)
-    for number, panel in enumerate(panels):
-        axes = sides[number % abreast][number // abreast]
+    room = NAMES, RIGHT, FOOT, abreast, BETWEEN, len(panels)
+    drawn, places = curves.panels(width, tall, *room)
+    for number, (axes, panel) in enumerate(zip(places, panels, strict=True)):
         _draw(axes, panel, rows, across)
         if number % abreast:
             axes.tick_params(labelleft=False)

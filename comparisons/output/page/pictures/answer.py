@@ -7,12 +7,13 @@ import numpy as np
 
 from comparisons.common.numbers import Scale, percent_as_written, plain, significant
 from comparisons.drawing import style
+from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_field
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, label
-from comparisons.judging.contact import draw_pressures, seen
+from comparisons.judging.contact import seen
 from comparisons.judging.study import Run
-from comparisons.output.page.pictures.contact import draw_difference, draw_surfaces
+from comparisons.output.page.pictures.contact import draw_stack
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,37 +52,21 @@ def overview_picture(run: Run) -> style.Picture:
 def overview(run: Run, width: float) -> "Drawn":
     """The picture, so many inches wide."""
     hertz, friction = run.problem.hertz, run.deciding_friction
-    compares, window = len(run.runs) > 1, run.window
+    compares, window, across = len(run.runs) > 1, run.window, seen(run, ROOM)
     rows = [PRESSURES, *[DIFFERENCES] * compares, SURFACES, *[SHEAR, BAR] * (window is not None)]
     foot = FOOT if window is not None else style.LABEL + 0.15
-    drawn = style.figure(width, foot + sum(map(sum, rows)))
-    panels = style.stacked(drawn, rows, LEFT, RIGHT)
-    bar = panels.pop() if window is not None else None
-    what = run, seen(run, ROOM), Scale(hertz.half_width, "a")
-    low, high = (end / hertz.half_width for end in what[1])
-    draw_pressures(panels[0], *what)
-    look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
-    look |= style.BEHIND_LEGEND
-    names = len(panels[0].get_legend_handles_labels()[1])
-    if width > style.COLUMN:
-        room, look["loc"] = 1.35, "upper right"
-    else:  # the names below the load in words
-        room = 1.3 + 0.12 * -(-names // 2)
-        look |= {"loc": "upper left", "bbox_to_anchor": (0.008, 0.9)}
-    panels[0].set_ylim(0.0, room * panels[0].dataLim.y1)
-    panels[0].legend(ncols=2, **look)
+    drawn, axes = panels(width, rows, LEFT, RIGHT, foot)
+    bar = axes.pop() if window is not None else None
+    ends = across[0] / hertz.half_width, across[1] / hertz.half_width
+    draw_stack(axes, run, across, Scale(hertz.half_width, "a"))
     if compares:
-        draw_difference(panels[1], *what)
-        panels[1].set_title(_models(run, friction))
-    draw_surfaces(panels[1 + compares], *what)
+        axes[1].set_title(_models(run, friction))
     if window is not None:
-        _shear(panels[-1], bar, run, (low, high))
-        panels[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
-    for panel in panels:
-        panel.set_xlim(low, high)
+        _shear(axes[-1], bar, run, ends)
+        axes[-1].set_ylim(window.z[-1] / hertz.half_width, 0.0)
+    for panel in axes:
         panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
-        panel.tick_params(labelbottom=panel is panels[-1])
-    panels[-1].set_xlabel("x/a")
+    over(axes, "x/a", ends)
     return drawn
 
 

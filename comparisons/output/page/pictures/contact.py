@@ -6,13 +6,14 @@ highest peak or the edge, where the nodes of the piecewise-linear pressures can 
 both bodies' surfaces before and under load on one datum, and the gap between them.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.curves import COINCIDE, FOOT, LEFT, distinct, draw, over, panels
+from comparisons.drawing.curves import COINCIDE, FOOT, distinct, draw, over, panels
 from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
 from comparisons.judging.contact import closed, draw_pressures, peak_position, seen
@@ -100,23 +101,28 @@ def _norm(run: Run) -> str:
 def _drawn(
     run: Run, across: tuple[float, float], width: float, height: float, nodes: bool = False
 ) -> "Figure":
-    """Pressures, their difference where there are two models, and surfaces."""
-    comparing = len(run.runs) > 1
-    shares = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
+    """The stack over x, with x/a along the top."""
+    shares = (0.50, 0.13, 0.37) if len(run.runs) > 1 else (0.58, 0.42)
     room = height - FOOT - TOP - BETWEEN * (len(shares) - 1)
-    above = (TOP, *[BETWEEN] * (len(shares) - 1))
-    rows = [(space, share * room) for space, share in zip(above, shares, strict=True)]
-    drawn = style.figure(width, height)
-    axes = style.stacked(drawn, rows, LEFT)
+    rows = [(BETWEEN if k else TOP, share * room) for k, share in enumerate(shares)]
+    drawn, axes = panels(width, rows)
     unit = scale_of(np.abs(across), "m")
-    draw_pressures(axes[0], run, across, unit, nodes)
-    _cap_and_legend(axes[0], run)
-    if comparing:
-        draw_difference(axes[1], run, across, unit)
-    draw_surfaces(axes[-1], run, across, unit)
+    draw_stack(axes, run, across, unit, nodes)
     over(axes, f"x [{unit.name}]", [end / unit.factor for end in across])
     _second_axis(axes[0], run.problem.hertz.half_width / unit.factor)
     return drawn
+
+
+def draw_stack(
+    axes: Sequence["Axes"], run: Run, across: tuple[float, float], unit: Scale, nodes: bool = False
+) -> None:
+    """Pressures, their difference where there are two models, and surfaces, on the first of the
+    axes; over `across` [m], x in `unit`."""
+    draw_pressures(axes[0], run, across, unit, nodes)
+    _cap_and_legend(axes[0], run)
+    if len(run.runs) > 1:
+        draw_difference(axes[1], run, across, unit)
+    draw_surfaces(axes[1 + (len(run.runs) > 1)], run, across, unit)
 
 
 def _second_axis(axes: "Axes", half_width: float) -> None:

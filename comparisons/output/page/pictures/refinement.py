@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import plain
-from comparisons.drawing import style
-from comparisons.drawing.curves import columns, joint_legend
+from comparisons.drawing import curves, style
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, QUANTITIES
 from comparisons.judging import comparison, contact
@@ -70,18 +69,18 @@ def source_of(figure: Figure) -> str:
 def _drawn(run: Run, panels: dict[str, list[Figure]]) -> "Drawn":
     abreast = -(-len(panels) // -(-len(panels) // ABREAST))  # rows of about equal lengths
     heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(-(-len(panels) // abreast))]
-    drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
-    sides = columns(drawn, heights, len(panels), abreast, LEFT, BETWEEN, BETWEEN)
+    room = LEFT, BETWEEN, FOOT, abreast, BETWEEN, len(panels)
+    drawn, places = curves.panels(style.WIDE, heights, *room)
     pitches = np.array([level.grid.pitch for level in next(iter(run.runs.values())).levels])
     for number, (name, figures) in enumerate(panels.items()):
-        axes = sides[number % abreast][number // abreast]
+        axes = places[number]
         _draw(axes, figures, 1e6 * pitches)
         axes.set_title(name.replace(", friction", ",\nfriction"))
         if number % abreast == 0:
             axes.set_ylabel("error [%]")
         if number + abreast >= len(panels):
             axes.set_xlabel("pressure elements [µm]")
-    joint_legend(drawn, columnspacing=1.6, borderaxespad=0.2)
+    curves.joint_legend(drawn, columnspacing=1.6, borderaxespad=0.2)
     return drawn
 
 

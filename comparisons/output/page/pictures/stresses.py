@@ -14,11 +14,11 @@ from comparisons.drawing import style
 from comparisons.drawing.curves import (
     COINCIDE,
     Curve,
-    columns,
     distinct,
     joint_label,
     joint_legend,
     names_above,
+    panels,
 )
 from comparisons.drawing.field import COVERED, ColourScale, FieldPanel, draw_fields
 from comparisons.figures.quantity import LABELS, WHOLE
@@ -40,6 +40,7 @@ SLIGHT, BELOW = 0.01, 1.5  # of the largest plastic strain; depths to which it i
 QUARTERS = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
 TITLE, TALL, FOOT = 0.3, 1.65, 0.46  # inches, of sections
 LEFT, RIGHT, BETWEEN = 0.616, 0.392, 0.28  # inches
+MOST_NAMES = 6  # of lines in a section
 
 
 @dataclass(frozen=True)
@@ -103,14 +104,14 @@ def _pictures(
     apart = [sub(*m.values()) for m, p in zip(fields, shown, strict=True) if len(p) > 1]
     of_differences = ColourScale.of_differences(f"Δ{label}", apart) if apart else None
     pictures = []
-    for friction, models, panels in zip(frictions, fields, shown, strict=True):
+    for friction, models, drawn_as in zip(frictions, fields, shown, strict=True):
         difference, notes = None, ""
-        if len(panels) > 1:
+        if len(drawn_as) > 1:
             difference = " − ".join(LABELS[name] for name in models), of_differences
         if len(models) > 1:
             end = of_differences.bands[-1] if difference else None
             notes = _difference_said(x, z, sub(*models.values()), end)
-        drawn = draw_fields(x, z, panels, scale, height, difference)
+        drawn = draw_fields(x, z, drawn_as, scale, height, difference)
         words = f"{component.words.capitalize()} {component.symbol} {place}"
         words += f", friction {plain(friction)}"
         striped = ", stripes what is negative" if component.signed or difference else ""
@@ -118,7 +119,7 @@ def _pictures(
             notes += " White: hollows below the mean line, from which z counts."
         if WHOLE in models:
             notes += " Of the whole model each point stands where it was before loading."
-        alternative = f"{words}. {'; '.join(panel.title for panel in panels)}.{notes}"
+        alternative = f"{words}. {'; '.join(panel.title for panel in drawn_as)}.{notes}"
         caption = f"{words}; + marks the largest value{striped}.{notes}"
         pictures.append(style.picture(drawn, alternative, caption, data=False))
     return pictures
@@ -229,55 +230,39 @@ def section_pictures(run: Run) -> list[style.Picture]:
         for words, place in wanted.items()
         if x[0] - spacing <= place <= x[-1] + spacing
     }
-    names = max((_names(run, column) for column in places.values()), default=0)
-    return [_section_picture(run, column, words, names) for words, column in places.items()]
+    return [_section_picture(run, column, words) for words, column in places.items()]
 
 
-def _names(run: Run, column: int) -> int:
-    """How many lines a section has names for."""
-    frictions = run.problem.scene.load.friction
-    curves = {names for mu in frictions for names in distinct(_curves(run, mu, column))}
-    zones = any(_zones(run, mu) for mu in frictions)
-    return len(curves) + zones + (closed_form(run.problem) is not None)
-
-
-def _section_picture(run: Run, column: int, words: str, names: int) -> style.Picture:
-    """`names`: room above for so many."""
-    frictions, hertz = run.problem.scene.load.friction, run.problem.hertz
-    abreast, top = names_above(style.COLUMN, names)
-    drawn = style.figure(style.COLUMN, top + FOOT + (TITLE + TALL) * len(frictions))
+def _section_picture(run: Run, column: int, words: str) -> style.Picture:
+    hertz, frictions, said = run.problem.hertz, run.problem.scene.load.friction, []
+    abreast, top = names_above(style.COLUMN, MOST_NAMES)
     depths = [run.window.z[-1] / hertz.half_width]
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
-    rows = [(top + 0.08 if place == 0 else TITLE, TALL) for place in range(len(frictions))]
-    sides = columns(drawn, rows, len(rows) * len(depths), len(depths), LEFT, RIGHT, BETWEEN)
-    for friction, panels in zip(frictions, zip(*sides, strict=True), strict=True):
-        for panel, depth in zip(panels, depths, strict=True):
-            _section(panel, run, column, friction, depth)
-            panel.tick_params(labelbottom=friction == frictions[-1], labelleft=panel is panels[0])
-        for panel in panels:
-            panel.set_ylim(0.0, max(p.dataLim.y1 for p in panels) * 1.08)
-        panels[0].set_ylabel("τ₁/p₀")
-        panels[0].set_title(f"friction {plain(friction)}")
-    for panels in sides:
-        panels[-1].set_xlabel("z/a")
+    rows = [(top + 0.08, TALL), *[(TITLE, TALL)] * (len(frictions) - 1)]
+    drawn, every = panels(style.COLUMN, rows, LEFT, RIGHT, FOOT, len(depths), BETWEEN)
+    for friction, row in zip(frictions, np.reshape(every, (-1, len(depths))), strict=True):
+        curves = _curves(run, friction, column)
+        for panel, depth in zip(row, depths, strict=True):
+            _section(panel, run, column, friction, curves, depth)
+            panel.tick_params(labelbottom=friction == frictions[-1], labelleft=panel is row[0])
+        for panel in row:
+            panel.set_ylim(0.0, max(p.dataLim.y1 for p in row) * 1.08)
+        row[0].set_ylabel("τ₁/p₀")
+        row[0].set_title(f"friction {plain(friction)}")
+        largest = (f"{LABELS[n]} {significant(np.nanmax(v), 3)} p₀" for n, (_, v) in curves.items())
+        said.append(f"friction {plain(friction)}: {', '.join(largest)}")
+    for panel in row:
+        panel.set_xlabel("z/a")
     look = {"borderaxespad": 0.1, "columnspacing": 1.2}
     joint_legend(drawn, abreast, bbox_to_anchor=(0.1, 1.0), **look)
     at = decimal(run.window.x[column] / hertz.half_width)
-    largest = "; ".join(
-        f"friction {plain(mu)}: "
-        + ", ".join(
-            f"{LABELS[name]} {significant(np.nanmax(tau1), 3)} p₀"
-            for name, (_, tau1) in _curves(run, mu, column).items()
-        )
-        for mu in frictions
-    )
     near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
     return style.picture(
         drawn,
-        f"Principal shear over depth through {words}. Largest: {largest}.",
+        f"Principal shear over depth through {words}. Largest: {'; '.join(said)}.",
         f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
-        f"section of the smooth contact at the same place.{near} Largest: {largest}.",
+        f"section of the smooth contact at the same place.{near} Largest: {'; '.join(said)}.",
     )
 
 
@@ -299,12 +284,19 @@ def _zones(run: Run, friction: float) -> list[tuple[float, float]]:
     ]
 
 
-def _section(axes: "Axes", run: Run, column: int, friction: float, depth: float) -> None:
+def _section(
+    axes: "Axes",
+    run: Run,
+    column: int,
+    friction: float,
+    curves: dict[str, Curve],
+    depth: float,
+) -> None:
     hertz = run.problem.hertz
     x, z = run.window.x[column], run.window.z
     shown = z <= 1.000001 * depth * hertz.half_width
     at = z[shown] / hertz.half_width
-    for names, (_, values) in distinct(_curves(run, friction, column)).items():
+    for names, (_, values) in distinct(curves).items():
         axes.plot(at, values[shown], label=joint_label(names), **style.LINES[names[0]])
     smooth = closed_form(run.problem)
     if smooth is not None:
