@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from comparisons.drawing.style import COLUMN, figure, hatch, power_of_ten, stacked
+from comparisons.drawing.style import COLUMN, HATCHED, figure, power_of_ten, stacked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -155,8 +155,8 @@ def colour_bar(axes: "Axes", shown: "ScalarMappable", scale: ColourScale) -> Non
     bar.minorticks_off()
     if bands[0] < 0.0:
         ends = [bands[0], -0.5 * step]
-        negative = axes.fill([*ends, *reversed(ends)], [0.0, 0.0, 1.0, 1.0], facecolor="none")
-        hatch(axes, negative, (0.0, 0.0, 0.0, SHADE))
+        look = {"facecolor": "none", "edgecolor": (0.0, 0.0, 0.0, SHADE), "linewidth": 0.0}
+        axes.axvspan(*ends, **look, **HATCHED)
     axes.tick_params(length=2.0, pad=1.5)
     beside = {"xytext": (-18, 0), "xycoords": "axes fraction", "textcoords": "offset points"}
     axes.annotate(label, (0.0, 0.5), **beside, ha="right", va="center")

@@ -24,12 +24,10 @@ from comparisons.drawing.blocks import attempted
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
 EDGE, LABEL = 0.17, 0.27  # inches: from the picture's left to a label, from an axis down to its own
 RIGHT = 0.18  # inches: room for half a number beyond an axis
 COLUMN, THIRD = 5.6, 3.7  # inches: two or three such pictures stand side by side
-HATCH = 0.055  # inches between hatches
 ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
 WIDE = 11.4  # inches: a picture across the page
 SETTINGS = Path(__file__).with_name("pictures.mplstyle")
@@ -47,6 +45,7 @@ BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 9
 BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
 ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}
+HATCHED = {"hatch": "////", "rasterized": True}  # browsers print patterns as coarse pixels
 BEHIND_WORDS = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}  # hides the grid
 BEHIND_LEGEND = {"frameon": True, "framealpha": 1.0, "edgecolor": "none", "borderpad": 0.0}
 
@@ -170,24 +169,6 @@ def whisker(
     """What may be wrong with a bar's end, so far to the left and to the right."""
     look = {"elinewidth": thick, "capsize": cap, "color": "#000000", "fmt": "none"}
     axes.errorbar(x, y, xerr=[[reach[0]], [reach[1]]], **look)
-
-
-def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float = 0.8) -> None:
-    """Diagonals on patches of the axes, as lines: browsers print patterns as coarse pixels."""
-    from matplotlib.lines import Line2D
-    from matplotlib.path import Path as Outline
-
-    if not patches:
-        return
-    (left, low), (right, high) = axes.get_position().get_points() * axes.figure.get_size_inches()
-    start = np.arange(left - (high - low), right, HATCH)
-    x = np.column_stack([start, start + high - low, np.full(len(start), np.nan)]).ravel()
-    y = np.tile([low, high, np.nan], len(start))
-    look = {"color": colour, "linewidth": width, "gid": "hatch"}
-    lines = Line2D(x, y, transform=axes.figure.dpi_scale_trans, **look)
-    outlines = [p.get_patch_transform().transform_path(p.get_path()) for p in patches]
-    lines.set_clip_path(Outline.make_compound_path(*outlines), axes.transData)
-    axes.add_artist(lines)
 
 
 def power_of_ten(power: int) -> str:

@@ -48,7 +48,7 @@ ROOM = 0.3, 0.08  # beyond the bars, share of their range: for numbers to the ri
 NUMERICAL, OTHERS, ERROR = "without any effect", "smaller steps", "model error"
 LOOKS = {
     True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
-    False: {"facecolor": "#56B4E9", "edgecolor": "#333333"},  # and hatched
+    False: {"facecolor": "#56B4E9", "edgecolor": "#333333", **style.HATCHED},
 }
 NOTE = """Model error: (half-plane − whole model) / whole model, which is a finite element
 solution with every effect that may matter here. A minus says that the half-plane's figure is
@@ -334,19 +334,16 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     if OTHERS in shown:
         shown[OTHERS] = sum(left_out)
     place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
-    hatched: list = []
     for y, size in zip(place, shown.values(), strict=False):
         begin, start = start, start + 100.0 * size
         if abs(size) > NOTHING:
             look = {"height": BAR, "linewidth": 0.5, **LOOKS[size > 0.0]}
-            [bar] = axes.barh(y, start - begin, left=begin, **look)
-            hatched += [bar] * (size < 0.0)
+            axes.barh(y, start - begin, left=begin, **look)
             style.beside_bar(axes, max(begin, start), y, error_text(size, panel.error.numerical))
         # past a step that does not apply
         top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
         axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
-    style.hatch(axes, hatched, LOOKS[False]["edgecolor"])
     value, y = 100.0 * panel.error.value, place[-1]
     axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
     certain = 100.0 * panel.error.numerical if math.isfinite(panel.error.numerical) else 0.0

@@ -144,10 +144,10 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     certain, left = (size / error.tolerance for size in (error.numerical, error.not_modelled))
     limit = axes.get_xlim()[1]
     low, high = np.clip([at - certain - left, at + certain + left], axes.get_xlim()[0], limit)
-    if left > 0.0:
-        [beyond] = axes.barh(y, high - low, left=low, height=THICK, facecolor="none", linewidth=0.0)
-        style.hatch(axes, [beyond], "#555555", width=0.5)
     axes.barh(y, np.clip(at, -limit, limit), height=THICK, color=colour, linewidth=0.0)
+    if left > 0.0:
+        look = {"facecolor": "none", "edgecolor": "#555555", "linewidth": 0.0, **style.HATCHED}
+        axes.barh(y, high - low, left=low, height=THICK, **look)
     if np.isfinite(certain):
         style.whisker(axes, at, y, (certain, certain))
     sliding = f", μ = {plain(error.friction)}" if several else ""

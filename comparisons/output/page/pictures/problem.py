@@ -121,7 +121,7 @@ def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
         axes.plot(places, np.full(len(places), -below - 0.5 * gap), **look)
     top = -below - gap
     corners = [-half, half, half, -half], [top - thick, top - thick, top, top]
-    style.hatch(axes, axes.fill(*corners, facecolor="none", **EDGE), EDGE["edgecolor"])
+    axes.fill(*corners, facecolor="none", **EDGE, **style.HATCHED)
 
 
 def _close_up(axes: "Axes", problem: Problem) -> float:
