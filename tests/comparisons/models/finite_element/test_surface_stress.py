@@ -63,7 +63,7 @@ def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
         known = replace(pressed, on_mesh=None)
         ways = (pressed, False), (pressed, True), (known, True)
         asked = frictions, window, asperities
-        results = (stresses_of(body, *asked, fields) for body, fields in ways)
+        results = [stresses_of(body, *asked, fields) for body, fields in ways]
         pairs.append([pickle.loads(pickle.dumps(result)) for result in results])
         return results[0]
 
