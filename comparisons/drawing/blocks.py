@@ -6,23 +6,18 @@ figures as cells of tables, alike wherever they are shown, in the digits that ar
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import floor, isfinite, log10
 from typing import NamedTuple
 
 from comparisons.common.errors import TRACEBACK, defect, tell
 from comparisons.common.numbers import (
-    MINUS,
     listed,
     percent,
     percent_as_written,
     scale_of,
-    significant,
     with_unit,
 )
-from comparisons.figures.figure import Column, Figure, Figures, Series, grouped
+from comparisons.figures.figure import Figure, Figures, grouped
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
-
-MOST_DIGITS = 5  # of a figure beside its uncertainty
 
 
 @dataclass(frozen=True)
@@ -65,8 +60,8 @@ class Bullets:
 
 @dataclass(frozen=True)
 class Pictures:
-    """What the drawing functions of these names give, one below the other or `abreast`; of several
-    those of `part`. The heading is left out where there is nothing."""
+    """What the drawing functions of these names give, one below the other or, if narrow, `abreast`;
+    of several those of `part`. The heading is left out where there is nothing."""
 
     names: tuple[str, ...]
     heading: str = ""
@@ -174,35 +169,3 @@ def model_table(
     rows = [(q.label, *cells(known, n, q.unit)) for n, q in quantities.items() if n in there]
     head = ("", *map(LABELS.get, MODELS), "difference", "uncertainty", "tolerance", "verdict")
     return TextTable("", head, (*rows, *others), "comparison")
-
-
-def stated(figure: Figure | None, unit: float = 1.0) -> str:
-    """A figure in a unit [SI] to the first digit of its uncertainty, at most to the fifth of its
-    own; without one in three."""
-    if figure is None:
-        return ""
-    value, size = figure.value / unit, figure.numerical * figure.scale / unit
-    if not isfinite(size) or size == 0.0:
-        return significant(value, 3)
-    last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
-    size = max(size, 10.0**last)
-    return f"{value:.{max(0, -last)}f} ± {size:.{max(0, -last)}f}".replace("-", MINUS)
-
-
-def stated_text(column: Column) -> list[str]:
-    """A column's cells: texts, or numbers in three digits with what they are uncertain by."""
-    cells = []
-    for value, size in zip(column.values, column.sizes, strict=True):
-        text = value if isinstance(value, str) else with_unit(value, column.unit, 3)
-        cells.append(f"{text} ± {percent(size / value, digits=1)}" if size > 0.0 else text)
-    return cells
-
-
-def series_table(title: str, series: Series) -> TextTable:
-    """A row for each of a series' columns, by its name in words; the first is the head."""
-    head, *rows = ((_in_words(name), *stated_text(c)) for name, c in series.columns.items())
-    return TextTable(title, head, tuple(rows))
-
-
-def _in_words(name: str) -> str:
-    return name.removeprefix("figures.").replace("_", " ").replace(".", ", ")

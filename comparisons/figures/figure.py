@@ -14,7 +14,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 
-from comparisons.common.numbers import percent
+from comparisons.common.numbers import percent, percent_as_written
 from comparisons.figures.quantity import WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 
@@ -141,12 +141,19 @@ class Figure:
         the scale."""
         return abs(self.relative) + self.total
 
-    def words(self, unsure: float | None = None) -> str:
+    def sized(self, unsure: float | None = None) -> str:
         """A difference ± its numerical uncertainty, or another one over the scale, in per cent and
         in the digits that are certain."""
         unsure = self.numerical if unsure is None else unsure
         size = percent(self.value, signed=True, uncertainty=unsure).removesuffix(" %")
         return f"{size} ± {percent(unsure)}"
+
+    def words(self, unsure: float | None = None) -> str:
+        """The same with the verdict at its tolerance, where it is judged."""
+        said = self.sized(unsure)
+        if self.bounds is None:
+            return said
+        return f"{said}, {self.verdict} at {percent_as_written(self.tolerance)}"
 
     @property
     def tolerance(self) -> float | None:

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.errors import ExitStatus
-from comparisons.drawing.blocks import Block
+from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures
+from comparisons.drawing.tables import facts_of, figure_table, in_context, in_words, line_of
 from comparisons.figures.figure import FAILED, Figure, Figures, Findings, Statement
-from comparisons.figures.quantity import WHOLE, Quantity
+from comparisons.figures.quantity import LABELS, WHOLE, Quantity
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
@@ -207,17 +208,61 @@ class Study:
     # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
     # stay as they are
     begin: "Callable[[Solved, Tasks], None]" = lambda solved, tasks: None
-    blocks: Callable[[Run], list[Block]] = lambda run: []  # its parts of the page
+    title: str = ""  # of its part of the page; a study without one has none, and no line
+    section: str = ""  # of another study, which it is shown in; "": its own
+    note: str | Callable[[Run], str] = ""  # how to read what is shown
+    # quantities of its table, in their order; None: all
+    shown: Sequence[str] | None = None
+    sources: Mapping[str, str] = field(
+        default_factory=dict
+    )  # who says what no model does, in words
+    # further names and values, after what it states in words
+    facts: Callable[[Run], list[tuple[str, str]]] = lambda run: []
+    # its parts of the page, and its lines of the terminal, each with its name, where `page` and
+    # `said` do not do
+    blocks: Callable[[Run], list[Block]] | None = None
+    lines: Callable[[Run], list[tuple[str, str]]] | None = None
     # what draws its pictures, by name; None where there is nothing to draw
     pictures: Mapping[str, Callable[[Run], object]] = field(default_factory=dict)
     # files of its own in the run's folder, by path: columns (n,) of a CSV by their headings
     files: Callable[[Run], Mapping[str, Mapping[str, np.ndarray]]] = lambda run: {}
-    # its lines of the terminal, each with its name
-    lines: Callable[[Run], list[tuple[str, str]]] = lambda run: []
     # verdicts of its own beside that on the half-plane: a word or two, and a sentence
     verdicts: Callable[[Run], list[tuple[str, str]]] = lambda run: []
     # a sentence after the verdict on the model error that is nearest to its tolerance, or nothing
     remark: Callable[[Run, Figure], str] = lambda run, error: ""
+
+    def page(self, run: Run) -> list[Block]:
+        """Its pictures, a table of its figures by models, and of others with what it states as
+        names and values; then the note."""
+        if self.blocks is not None or not self.title:
+            return self.blocks(run) if self.blocks else []
+        findings, quantities = run.findings[self.name], self._shown
+        figures = [f for f in findings.figures if f.quantity in quantities]
+        compared = {name for f in figures if f.against for name in (f.source, f.against)}
+        in_table = [f for f in figures if f.source in {*LABELS, *compared}]
+        others = [figure for figure in figures if figure not in in_table]
+        said = [s for s in findings.statements if (s.name, s.text) != (CONVERGED, "yes")]
+        facts = in_words(said) + self.facts(run) + facts_of(others, quantities, self.sources)
+        note = self.note(run) if callable(self.note) else self.note
+        items = [Heading(self.title)] if self.section else []
+        items.append(Pictures(tuple(self.pictures), abreast=True))
+        below = in_context(run.problem.hertz, quantities)
+        items += [figure_table(in_table, quantities, below=below)] if in_table else []
+        items += [Names(facts)] if facts else []
+        items += [Note(note)] if note else []
+        return [Block(self.section or self.name.replace("_", "-"), tuple(items), self.title)]
+
+    def said(self, run: Run) -> list[tuple[str, str]]:
+        """Its lines of the terminal: what it judges, or its first figure."""
+        if self.lines is not None:
+            return self.lines(run)
+        text = line_of(run.findings[self.name].figures, self._shown) if self.title else ""
+        return [(self.title.lower(), text)] if text else []
+
+    @property
+    def _shown(self) -> Mapping[str, Quantity]:
+        names = self.quantities if self.shown is None else self.shown
+        return {name: self.quantities[name] for name in names}
 
 
 def studied(

@@ -90,7 +90,7 @@ def _said(figure: Figure) -> str:
     """Verdict, size, uncertainty with what is not modelled, and what is allowed."""
     if figure.against is not None:
         tolerance = percent_as_written(figure.tolerance)
-        return f"{figure.verdict}: {figure.words(figure.total)}, tolerance {tolerance}"
+        return f"{figure.verdict}: {figure.sized(figure.total)}, tolerance {tolerance}"
     sizes, unit = (figure.value, figure.bounds[1] * figure.scale), meaning(figure).unit
     value, most = (with_unit(size, unit) for size in sizes)
     return f"{figure.verdict}: {value} ± {percent(figure.total)}, at most {most}"

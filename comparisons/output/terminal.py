@@ -31,7 +31,7 @@ STYLES |= dict.fromkeys(("differ", "fails", "not converged", "no", "NO"), "bold 
 STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
-PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt"}
+PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt", ord("δ"): "delta", ord("κ"): "kappa"}
 SHORT = {name: quantity.short.translate(PLAIN) for name, quantity in COMPARED.items()}
 
 
@@ -195,7 +195,7 @@ def _facts(outcome: Run) -> "Table":
         rows.append(("surface", surface_text(surface)))
     for study in STUDIES:
         if study.name in outcome.findings:
-            rows += study.lines(outcome)
+            rows += study.said(outcome)
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     budget = outcome.data(MODEL_ERROR)

@@ -27,34 +27,36 @@ a quarter less shear lasts an order of magnitude longer."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from math import inf, isfinite, nan
+from operator import attrgetter
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.common.numbers import plain, significant
-from comparisons.drawing.blocks import Block, Heading, Note, TextTable, stated
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
 from comparisons.judging.contact import by_repetition
-from comparisons.judging.study import WHY_NOT, Case, Run, Solved, Study
+from comparisons.judging.study import Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
 NAME = "quiescent_zone"
+_depth = partial(Quantity, unit="m", scale=attrgetter("half_width"), over=(1.0, "a"))
 QUANTITIES = {  # the figures of a ShearDip
     "level": Quantity("least shear over the Hertz zone's"),
     "ratio": Quantity("least shear over the smaller maximum"),
-    "depth": Quantity("depth of the least shear", "m"),
-    "start": Quantity("where the quiescent zone starts", "m"),
-    "stop": Quantity("where the quiescent zone stops", "m"),
+    "depth": _depth("depth of the least shear"),
+    "start": _depth("where the quiescent zone starts"),
+    "stop": _depth("where the quiescent zone stops"),
     "asperity": Quantity("largest shear of the asperities' zone", "Pa"),
-    "asperity_depth": Quantity("its depth", "m"),
+    "asperity_depth": _depth("its depth"),
     "hertz": Quantity("largest shear of the Hertz zone", "Pa"),
-    "hertz_depth": Quantity("its depth", "m"),
+    "hertz_depth": _depth("its depth"),
 }
 STATE, ASPERITIES = "state", "asperities"
 NOTE = """The layer of low shear between the asperities' stresses and those of the Hertz
@@ -232,26 +234,15 @@ def zones_of(findings: Findings | None) -> list[Zone]:
     return zones
 
 
-def blocks(run: Run) -> list[Block]:
-    """A table with a row for each friction coefficient and model."""
-    findings, a = run.findings[NAME], run.problem.hertz.half_width
-    heading = Heading("Quiescent zone")
-    if (why := findings.said(WHY_NOT)) is not None:
-        table = TextTable("Not measured", ("because",), ((why,),))
-        return [Block("stresses", (heading, table, Note(NOTE)))]
-    rows = [
+def facts(run: Run) -> list[tuple[str, str]]:
+    """How many asperities bridge the zone, by model and friction coefficient."""
+    return [
         (
-            *(plain(zone.friction), LABELS[zone.model], zone.state),
-            *(stated(zone.figures.get(name), a) for name in ("start", "stop", "depth")),
-            *(stated(zone.figures.get(name)) for name in ("level", "ratio")),
+            f"asperities that bridge it, {LABELS[zone.model]}, friction {plain(zone.friction)}",
             f"{zone.bridged} of {zone.asperities}",
         )
-        for zone in sorted(zones_of(findings), key=lambda zone: zone.friction)
+        for zone in zones_of(run.findings[NAME])
     ]
-    head = ("friction", "model", "", "from, z/a", "to, z/a", "least shear at, z/a")
-    head += ("least over Hertz zone's", "over the smaller maximum", "asperities that bridge it")
-    table = TextTable("Mean shear between asperities and Hertz zone", head, tuple(rows))
-    return [Block("stresses", (heading, table, Note(NOTE)))]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -278,6 +269,10 @@ STUDY = Study(
     applies=lambda solved: solved.problem.scene.profile is not None and solved.window is not None,
     needs=needs,
     solve=solve,
-    blocks=blocks,
+    title="Quiescent zone",
+    section="stresses",
+    note=NOTE,
+    shown=tuple(QUANTITIES)[:5],
+    facts=facts,
     lines=lines,
 )

@@ -69,7 +69,7 @@ def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
     worst = _nearest(errors)
     if not isfinite(worst.total):
         return f"{words} ({_time(row)})"
-    error = f"{QUANTITIES[worst.quantity].short} {worst.words(worst.total)}"
+    error = f"{QUANTITIES[worst.quantity].short} {worst.sized(worst.total)}"
     return f"{words} ({_time(row)}, {error})"
 
 

@@ -5,6 +5,7 @@ A loop over blocks: those that every run has, and those by which each study show
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from itertools import groupby
 
 from comparisons.common.numbers import plain
 from comparisons.common.processes import uncollected
@@ -83,7 +84,7 @@ def _filled(items: Iterable, run: Run, pictures: Mapping[str, object]) -> Iterat
         if isinstance(item, Pictures):
             drawn = [one for name in item.names for one in _listed(pictures[name], item.part)]
             yield from [Heading(item.heading)] * bool(drawn and item.heading)
-            yield from [Box("columns", tuple(drawn))] if drawn and item.abreast else drawn
+            yield from _abreast(drawn) if item.abreast else drawn
         elif isinstance(item, Box):
             inside = tuple(_filled(item.items, run, pictures))
             yield from [replace(item, items=inside)] * bool(inside)
@@ -93,6 +94,13 @@ def _filled(items: Iterable, run: Run, pictures: Mapping[str, object]) -> Iterat
             yield from _filled(made, run, pictures)
         else:
             yield item
+
+
+def _abreast(drawn: list) -> Iterator[object]:
+    """Side by side what is narrow."""
+    for is_narrow, some in groupby(drawn, lambda one: not getattr(one, "wide", True)):
+        items = tuple(some)
+        yield from [Box("columns", items)] if is_narrow else items
 
 
 def _listed(made: object, part: slice | None = None) -> list:
@@ -128,7 +136,7 @@ def sections(run: Run) -> list[Block]:
     blocks = [*_before(run), *_stresses(run), *_after(run)]
     for study in STUDIES:
         if study.name in run.findings:
-            made = attempted(study.name, partial(study.blocks, run))
+            made = attempted(study.name, partial(study.page, run))
             if not isinstance(made, list):
                 made = [Block(study.name, (made, Pictures(tuple(study.pictures))), study.name)]
             blocks += made

@@ -94,7 +94,7 @@ def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
     said = {"differ": "differs from", "agree": "agrees with"}
     words = f"the answer {answer} {said.get(kind, 'may agree with or differ from')} the {reference}"
     at = f" at friction {plain(figure.friction)}" if len({f.friction for f in judged}) > 1 else ""
-    end = f"{COMPARED[figure.quantity].short}{at}, {figure.words(figure.total)}"
+    end = f"{COMPARED[figure.quantity].short}{at}, {figure.sized(figure.total)}"
     first = "the farthest" if kind == "differ" else "nearest to its tolerance"
     tolerance = percent_as_written(figure.tolerance)
     return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."

@@ -1,13 +1,11 @@
 """Partial slip on the page and in the terminal.
 
-In: a run with [partial_slip]. Out: a table, facts, pictures of the tractions and of the loop, a
-line."""
+In: a run with [partial_slip]. Out: facts, pictures of the tractions and of the loop, a line."""
 
 import numpy as np
 
-from comparisons.common.numbers import listed, percent, plain, scale_of, with_unit
+from comparisons.common.numbers import listed, scale_of, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Names, Note, Pictures, model_table
 from comparisons.drawing.curves import (
     distinct,
     draw,
@@ -17,10 +15,11 @@ from comparisons.drawing.curves import (
     over,
     panels,
 )
+from comparisons.drawing.tables import line_of
 from comparisons.figures.quantity import LABELS, MODELS
-from comparisons.judging.study import WHY_NOT, Run
+from comparisons.judging.study import Run
 from comparisons.studies.friction.half_planes import SlippedLevel, last_visit
-from comparisons.studies.friction.partial_slip import COMPARED, NAME, QUANTITIES
+from comparisons.studies.friction.partial_slip import NAME, QUANTITIES
 
 NOTE = """Tractions at the end of the path of loads, at the scene's largest friction coefficient:
 where the surfaces stick |q| < μp, where they slip |q| = μp. Of alike half-planes q is the
@@ -47,61 +46,21 @@ def limit_of(run: Run, level: SlippedLevel) -> np.ndarray:
     return run.problem.largest_friction * level.states[-1].normal.pressure
 
 
-def blocks(run: Run) -> list[Block]:
-    table = model_table(run.figures.of(study=NAME), {name: QUANTITIES[name] for name in COMPARED})
-    shown = table, Names(slip_facts(run)), Note(NOTE)
-    pictures = Pictures(("slip_tractions", "slip_loop"), abreast=True)
-    return [Block("heat", (pictures, *shown), "Partial slip")]
-
-
 def slip_facts(run: Run) -> list[tuple[str, str]]:
-    """The path of loads, what sticks, and what is not modelled."""
-    scene, known = run.problem.scene, run.figures.of(study=NAME)
-    slip, reference = scene.partial_slip, list(run.data(NAME))[-1]  # of answers from outside
-    facts = [
-        ("tangential load over that of sliding", listed(slip.path)),
-        ("friction", plain(run.problem.largest_friction)),
-    ]
+    """The path of loads, and how many zones stick."""
+    slip = run.problem.scene.partial_slip
+    facts = [("tangential load over that of sliding", listed(slip.path))]
     if slip.bulk_stress:
         facts.append(("bulk stress at the largest load", with_unit(slip.bulk_stress, "Pa")))
     if last_visit(slip.path) is not None:
         facts.append(("the cycle", "since that load was reached before"))
-    for figure in known.of(quantity="stick_ratio"):
-        number = len(run.data(NAME)[figure.source].zones[-1])
-        zones = f"{percent(figure.value)} of the contact, in {number} zone{'s' * (number != 1)}"
-        facts.append((f"sticks ({LABELS[figure.source]})", zones))
-    for figure in known.of(quantity="stick_length", against=None):
-        if figure.source not in MODELS:
-            difference = known.one(quantity="stick_length", source=figure.source, against=reference)
-            length = with_unit(figure.value, QUANTITIES["stick_length"].unit)
-            said = f"{length}, {difference.words()} against the {LABELS[reference]}"
-            said += f", {difference.verdict}"
-            facts.append((f"sticks ({figure.source}, from outside)", said))
-    why = run.findings[NAME].said(WHY_NOT)
-    return facts + ([("not modelled", why)] if why else [])
+    zones = (f"{len(level.zones[-1])} ({LABELS[name]})" for name, level in run.data(NAME).items())
+    return [*facts, ("zones that stick", ", ".join(zones))]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """What sticks, in a sentence."""
-    slip, known = run.problem.scene.partial_slip, run.figures.of(study=NAME)
-    shares = [
-        f"{percent(figure.value)} ± {percent(figure.numerical)} ({LABELS[figure.source]})"
-        for figure in known.of(quantity="stick_ratio")
-    ]
-    text = f"under {slip.path[-1]:g} of the load that makes it slide {', '.join(shares)}"
-    text += " of the contact sticks"
-    figure = known.one(quantity="stick_length", source=MODELS[0], against=MODELS[1])
-    if figure is not None:
-        text += f"; length {figure.words()}, {figure.verdict}"
-        judged = known.of(source=MODELS[0], against=MODELS[1])
-        others = [f for f in judged if f.verdict != "agree" and f != figure]
-        if others:
-            said = (f"{QUANTITIES[f.quantity].label} {f.verdict}" for f in others)
-            text += f"; {', '.join(said)}"
-        text += next_step(run)
-    if (why := run.findings[NAME].said(WHY_NOT)) is not None:
-        text += f"; of the finite elements {why}"
-    return [("partial slip", text)]
+    """What decides, and what to do about it."""
+    return [("partial slip", line_of(run.findings[NAME].figures, QUANTITIES) + next_step(run))]
 
 
 def next_step(run: Run) -> str:

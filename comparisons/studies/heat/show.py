@@ -99,7 +99,7 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
     figure = flash.one(against=MODELS[1]) or flash.one(source=list(run.runs)[-1])
     for part in sorted(figure.parts, key=lambda part: part.name != OTHER_PRESSURES):
         name = f"change of the largest rise without {study.contains.get(part.name)}"
-        changed = replace(figure, value=part.value).words(part.uncertainty)
+        changed = replace(figure, value=part.value).sized(part.uncertainty)
         if part.name == OTHER_PRESSURES:
             name = "difference of both models by their pressures"
             changed = percent(part.value, signed=True, uncertainty=figure.numerical)

@@ -6,8 +6,9 @@ import numpy as np
 
 from comparisons.common.numbers import scale_of, significant
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable, series_table, stated_text
+from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.curves import legend_above, names_above, over, panels
+from comparisons.drawing.tables import series_table, stated_text
 from comparisons.figures.figure import Findings, Series
 from comparisons.figures.quantity import LABELS
 from comparisons.judging.study import Run

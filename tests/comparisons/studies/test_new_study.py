@@ -21,7 +21,6 @@ STUDY = '''
 """The mean pressure in the contact."""
 import math
 
-from comparisons.drawing.blocks import Block, Heading, Note, TextTable
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Statement
 from comparisons.figures.quantity import Quantity
@@ -59,20 +58,13 @@ def solve(solved, before, tasks):
     )
 
 
-def blocks(run):
-    mean, _ = run.findings[NAME].figures
-    rows = (("mean", f"{1e-9 * mean.value:.2f} GPa"),)
-    table = TextTable("Mean", ("", "pressure"), rows)
-    return [Block("yield", (Heading("Mean pressure"), table, Note("A note.")))]
-
-
 STUDY = Study(
     NAME,
     QUANTITIES,
     solve,
     applies=lambda solved: solved.problem.scene.mean_pressure is not None,
-    blocks=blocks,
-    lines=lambda run: [("mean pressure", run.findings[NAME].said("state"))],
+    title="Mean pressure",
+    note="A note.",
 )
 '''
 SECTION = '''
@@ -142,9 +134,9 @@ def test_its_figures_are_results(folder):
 
 
 def test_terminal_page_and_tables_have_it(folder):
-    assert "bears on the whole contact" in (folder / "terminal.txt").read_text()
-    page = (folder / "out/report.html").read_text()
-    assert "Mean pressure" in page and "A note." in page
+    terminal, page = ((folder / name).read_text() for name in ("terminal.txt", "out/report.html"))
+    assert "mean pressure  mean over largest pressure " in terminal and ", agree at 2%" in terminal
+    assert "Mean pressure" in page and "A note." in page and "bears on the whole contact" in page
     rows = csv.DictReader(command(folder, "table", "--csv", "out").splitlines())
     [row] = [row for row in rows if row["quantity"] == "mean_pressure"]
     assert row["unit"] == "Pa" and float(row["uncertainty"]) > 0.0

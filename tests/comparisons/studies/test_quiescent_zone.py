@@ -8,6 +8,7 @@ from scenes import STEADY, STEEL, half_plane_at, problem, run_of
 from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
+from comparisons.drawing.blocks import Names
 from comparisons.judging.study import WHY_NOT
 from comparisons.models.window import window_of
 from comparisons.studies import quiescent_zone as q
@@ -159,17 +160,16 @@ def test_a_field_that_ends_before_says_so(name, value):
     outcome = run_of(WAVY, "half_plane", stress={name: value, "points": [60, 20]})
     why = outcome.findings[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
-    [block] = q.blocks(outcome)
-    assert block.items[1].rows == ((why,),) and q.lines(outcome) == []
+    [block] = q.STUDY.page(outcome)
+    assert Names([(WHY_NOT, why)]) in block.items and q.lines(outcome) == []
 
 
-def test_table_and_line_say_what_the_figures_are(wavy):
-    [block], [(_, line)] = q.blocks(wavy), q.lines(wavy)
-    _, table, _ = block.items
-    assert [row[:3] for row in table.rows] == [
-        ("0", "half-plane", q.QUIESCENT),
-        ("0.3", "half-plane", q.BRIDGED),
-    ]
+def test_table_facts_and_line_say_what_the_figures_are(wavy):
+    [block], [(_, line)] = q.STUDY.page(wavy), q.lines(wavy)
+    _, _, table, facts, _ = block.items
+    states = [text for name, text in facts.rows if name.startswith(f"{q.STATE}, half-plane")]
+    assert states == [q.QUIESCENT, q.BRIDGED]
     level = q.zones_of(wavy.findings[q.NAME])[0].figures["level"].value
-    assert float(table.rows[0][6].split()[0]) == pytest.approx(level, rel=5e-3)
+    assert table.rows[0][:2] == (q.QUANTITIES["level"].label, "0")
+    assert float(table.rows[0][2].split()[0]) == pytest.approx(level, rel=5e-3)
     assert line.startswith("friction 0: 0.") and "; friction 0.3: bridged, least shear 0.8" in line

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, percent_as_written, plain, significant
+from comparisons.common.numbers import Scale, plain, significant
 from comparisons.drawing import style
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, colour_bar, draw_field
@@ -124,9 +124,7 @@ def judged_picture(run: Run) -> style.Picture | None:
     axes.set_xlabel("model error / tolerance")
     axes.set_title("within the tolerance: shaded")
     words = "; ".join(
-        f"{label(e.quantity)}, friction {plain(e.friction)}: {e.words()}, tolerance "
-        f"{percent_as_written(e.tolerance)}, {e.verdict}"
-        for e in errors
+        f"{label(e.quantity)}, friction {plain(e.friction)}: {e.words()}" for e in errors
     )
     return style.picture(
         drawn,
@@ -156,5 +154,4 @@ def _bar(axes: "Axes", y: float, error: Figure, several: bool) -> None:
     # next to it: what a narrow screen shows first
     beside = {"xycoords": named, "xytext": (8, 0), "textcoords": "offset points"}
     look = {"color": WORDS[error.verdict], "weight": "bold", "va": "bottom"}
-    words = f"{error.words()}, {error.verdict} at {percent_as_written(error.tolerance)}"
-    axes.annotate(words, (1.0, 0.0), **beside, **look)
+    axes.annotate(error.words(), (1.0, 0.0), **beside, **look)

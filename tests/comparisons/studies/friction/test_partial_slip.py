@@ -9,6 +9,7 @@ from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import (
     Case,
@@ -20,10 +21,10 @@ from comparisons.output.flat_csv import rows_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
+from comparisons.studies.friction import PARTIAL_SLIP
 from comparisons.studies.friction.finite_elements import finite_element_slip
 from comparisons.studies.friction.half_planes import half_plane_slip
 from comparisons.studies.friction.partial_slip import COMPARED, solvers
-from comparisons.studies.friction.show import slip_facts
 
 SMOOTH = {
     "roller": {"radius": 8e-3, **STEEL},
@@ -117,7 +118,7 @@ def test_models_agree_within_their_uncertainty(cycled):
 
 def test_page_tables_and_files_have_it(cycled):
     page = (cycled.directory / "report.html").read_text(encoding="utf-8")
-    assert "Partial slip" in page and "of the contact, in 1 zone" in page
+    assert "Partial slip" in page and "1 (half-plane), 1 (finite elements)" in page
     columns = np.genfromtxt(cycled.directory / "half_plane/partial_slip.csv", delimiter=",").T
     assert np.all(np.abs(columns[2][1:]) <= columns[1][1:] * (1.0 + 1e-9))
     result = read_result(cycled.directory / "result.json")
@@ -172,8 +173,10 @@ def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
     assert known.one(quantity="stick_length", against="half_plane").verdict == verdict
     norm = known.one(quantity="traction_l2")
     assert (norm.value < norm.numerical < 0.03) == (verdict == "agree")
-    [said] = [text for name, text in slip_facts(outcome) if "from outside" in name]
-    assert said.endswith(verdict)
+    [block] = PARTIAL_SLIP.page(outcome)
+    [table] = [item for item in block.items if isinstance(item, TextTable)]
+    [row] = [row for row in table.rows if row[0].startswith("length that sticks")]
+    assert row[table.head.index("exact")] and row[-1] == verdict
 
 
 def test_of_a_body_that_flows_the_half_plane_stands_alone():

@@ -1,0 +1,233 @@
+"""Figures in words: one table, facts and a line, alike for every study, in the certain digits.
+
+In: figures, and what they are of. Out: a table with a row a quantity and a column a source, names
+and values of what no model says, and what decides in a sentence."""
+
+from collections.abc import Callable, Iterable, Mapping
+from math import floor, isfinite, log10
+from typing import TYPE_CHECKING
+
+from comparisons.common.numbers import (
+    MINUS,
+    Scale,
+    listed,
+    percent,
+    percent_as_written,
+    plain,
+    scale_of,
+    significant,
+    with_unit,
+)
+from comparisons.drawing.blocks import TextTable
+from comparisons.figures.figure import (
+    FAILED,
+    Column,
+    Figure,
+    Series,
+    Statement,
+    grouped,
+    nearest_to_tolerance,
+)
+from comparisons.figures.quantity import LABELS, Quantity
+
+if TYPE_CHECKING:
+    from analytic.exact.hertz import HertzContact
+
+MOST_DIGITS = 5  # of a figure beside its uncertainty
+PURE = Scale(1.0, "")
+PASSED = "agree", "holds"
+WORST_FIRST = (*FAILED, "inconclusive", *PASSED)
+TINY = 1e-4  # a number whose digits begin beyond four zeros is written with a power of ten
+Below = Callable[[Figure], str]  # grey lines below a value, or below the name of a difference
+
+
+def stated(figure: Figure | None, scale: Scale = PURE) -> str:
+    """A figure [SI] in a unit to the first digit of its uncertainty, at most to the fifth of its
+    own; without one in three, an exact one in four."""
+    if figure is None:
+        return ""
+    value, size = (number / scale.factor for number in (figure.value, _size(figure)))
+    if not isfinite(size) or size == 0.0:
+        return scale.named(significant(value, 3 if size else 4))
+    last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
+    size = max(size, 10.0**last)
+    if abs(value) < TINY and last < 0:
+        return scale.named(f"{significant(value, 2)} ± {significant(size, 1)}")
+    text = f"{value:.{max(0, -last)}f} ± {size:.{max(0, -last)}f}"
+    return scale.named(text.replace("-", MINUS))
+
+
+def in_its_unit(figure: Figure, quantities: Mapping[str, Quantity]) -> str:
+    """`stated` in the unit that suits it."""
+    return stated(figure, scale_of([figure.value], quantities[figure.quantity].unit))
+
+
+def _size(figure: Figure) -> float:
+    """Numerical uncertainty [SI]."""
+    return figure.numerical * figure.scale
+
+
+def in_context(hertz: "HertzContact", quantities: Mapping[str, Quantity]) -> Below:
+    """Of a value what it is over that of the smooth contact, or else where it stands."""
+
+    def below(figure: Figure) -> str:
+        over, ends = quantities[figure.quantity].over, figure.place or ()
+        if figure.against is not None:
+            return ""
+        if over is not None:
+            scale = over[0] * quantities[figure.quantity].scale(hertz)
+            return Scale(scale, over[1]).text(figure.value)
+        at = zip("xz", ends, strict=False)
+        return ", ".join(f"{name} = {with_unit(end, 'm')}" for name, end in at)
+
+    return below
+
+
+def figure_table(
+    figures: Iterable[Figure],
+    quantities: Mapping[str, Quantity],
+    title: str = "",
+    below: Below = lambda figure: "",
+    beside: Mapping[str, Below] = {},
+    brief: bool = False,
+) -> TextTable:
+    """A row for each quantity, friction coefficient and difference, in the order of quantities;
+    rows of several coefficients that look the same are joined. Each source's value ± its
+    uncertainty, all in one unit; where anything is compared or judged difference, uncertainty,
+    tolerance, verdict; then what `beside` says by its heads of the row's difference, or value.
+
+    brief  short names, and values alone, in four digits"""
+    known = [f for name in quantities for f in figures if f.quantity == name]
+    sources = dict.fromkeys(f.source for f in known if f.against is None)
+    pairs = {(f.source, f.against) for f in known if f.against is not None}
+    is_judged = bool(pairs) or any(f.bounds for f in known)
+    has_friction, rows = any(f.friction is not None for f in known), []
+    for same in grouped(known, lambda figure: (figure.quantity, figure.friction)):
+        values = {figure.source: figure for figure in same if figure.against is None}
+        quantity = quantities[same[0].quantity]
+        scale = scale_of([figure.value for figure in values.values()], quantity.unit)
+        texts = []
+        for source in sources:
+            one = values.get(source)
+            text = scale.text(one and one.value) if brief and one else stated(one, scale)
+            texts.append(_lines(text, below(one) if one else ""))
+        bounded = [figure for figure in values.values() if figure.bounds is not None]
+        differences = [figure for figure in same if figure.against is not None]
+        for figure in differences or bounded or same[:1]:
+            name, judged = quantity.short if brief else quantity.label, [""] * 4
+            if figure.against is not None:
+                name = _lines(name, _pair(figure) if len(pairs) > 1 else "", below(figure))
+                judged = [_difference(figure, signed=bool(values)), percent(figure.numerical)]
+            if figure.bounds is not None:
+                judged[2:] = _allowed(figure, quantity.unit), figure.verdict
+            elif figure.against is not None:
+                judged += "", ""
+            more = [say(figure) for say in beside.values()]
+            rows.append((figure, (name, *texts, *judged * is_judged, *more)))
+    cells = [
+        (name, *[listed(f.friction for f, _ in alike if f.friction is not None)] * has_friction, *c)
+        for alike in grouped(rows, lambda row: (row[0].quantity, row[1]))
+        for name, *c in [alike[0][1]]
+    ]
+    head = ("quantity", *["friction"] * has_friction, *(LABELS.get(n, n) for n in sources))
+    head += ("difference", "uncertainty", "tolerance", "verdict") * is_judged
+    return TextTable(title, (*head, *beside), tuple(cells), "comparison", words=bool(beside))
+
+
+def _lines(*texts: str) -> str:
+    return "\n".join(filter(None, texts))
+
+
+def _pair(figure: Figure) -> str:
+    return " against ".join(LABELS.get(name, name) for name in (figure.source, figure.against))
+
+
+def _difference(figure: Figure, signed: bool) -> str:
+    return percent(figure.value, signed=signed, uncertainty=figure.numerical)
+
+
+def _allowed(figure: Figure, unit: str) -> str:
+    """The tolerance of a difference; of a value by itself the most that it may be."""
+    if figure.against is not None:
+        return percent_as_written(figure.tolerance)
+    return f"at most {with_unit(figure.tolerance * figure.scale, unit, 3)}"
+
+
+def facts_of(
+    figures: Iterable[Figure], quantities: Mapping[str, Quantity], names: Mapping[str, str] = {}
+) -> list[tuple[str, str]]:
+    """What a table does not hold, as names and values: by whom, and at which friction where there
+    are several."""
+    known = [f for name in quantities for f in figures if f.quantity == name]
+    several = len({figure.friction for figure in known} - {None}) > 1
+    facts = []
+    for figure in known:
+        by = names.get(figure.source, LABELS.get(figure.source, figure.source))
+        at = f", friction {plain(figure.friction)}" if several and figure.at else ""
+        name = f"{quantities[figure.quantity].label}{f', {by}' if by else ''}{at}"
+        facts.append((name, in_its_unit(figure, quantities)))
+    return facts
+
+
+def in_words(statements: Iterable[Statement]) -> list[tuple[str, str]]:
+    """Statements as names and texts."""
+    said = []
+    for one in statements:
+        at = (f"{name} {plain(value)}" for name, value in one.at.items())
+        by = LABELS.get(one.source, one.source)
+        said.append((", ".join(filter(None, (one.name, by, *at))), one.text))
+    return said
+
+
+def line_of(figures: Iterable[Figure], quantities: Mapping[str, Quantity]) -> str:
+    """What is judged in a sentence: the first figure, where all agree or hold, else how many do
+    not, and which is farthest outside its tolerance or nearest to it. Where nothing is judged, the
+    first figure by each source."""
+    known = [f for name in quantities for f in figures if f.quantity == name]
+    judged = [figure for figure in known if figure.bounds is not None]
+    if not known:
+        return ""
+    deciding, before, after = (judged or known)[0], "", ""
+    worst = next((v for v in WORST_FIRST for f in judged if f.verdict == v), "")
+    alike = [figure for figure in judged if figure.verdict == worst]
+    if worst in PASSED:
+        after = f"; all {len(judged)} {deciding.verdict}" if judged[1:] else ""
+    elif worst:
+        deciding = nearest_to_tolerance(alike)
+        which = "the farthest outside" if worst in FAILED else "nearest to its tolerance"
+        which = f"; {which}" if alike[1:] else ""
+        before = f"{len(alike)} of {len(judged)} {worst}{which}: " if judged[1:] else ""
+    meaning = quantities[deciding.quantity]
+    values = [f for f in known if (f.quantity, f.at) == (deciding.quantity, deciding.at)]
+    by = [
+        f"{in_its_unit(figure, quantities)} ({LABELS.get(figure.source, figure.source)})"
+        for figure in values
+        if figure.against is None
+    ]
+    at = f" at friction {plain(deciding.friction)}" if len({f.friction for f in known}) > 1 else ""
+    said = " ".join(filter(None, (f"{before}{meaning.label}{at}", ", ".join(by))))
+    if deciding.against is not None:
+        pair = _pair(deciding) if len({f.against for f in known} - {None}) > 1 else ""
+        said += f"{':' * bool(by)} {_lines(deciding.words(), pair)}".replace("\n", ", ")
+    elif deciding.bounds is not None:
+        said += f" ({_allowed(deciding, meaning.unit)}: {deciding.verdict})"
+    return said + after
+
+
+def stated_text(column: Column) -> list[str]:
+    """A column's cells: texts, or numbers in three digits with what they are uncertain by."""
+    cells = []
+    for value, size in zip(column.values, column.sizes, strict=True):
+        text = value if isinstance(value, str) else with_unit(value, column.unit, 3)
+        cells.append(f"{text} ± {percent(size / value, digits=1)}" if size > 0.0 else text)
+    return cells
+
+
+def series_table(title: str, series: Series) -> TextTable:
+    """A row for each of a series' columns, by its name in words; the first is the head."""
+    head, *rows = ((_in_words(name), *stated_text(c)) for name, c in series.columns.items())
+    return TextTable(title, head, tuple(rows))
+
+
+def _in_words(name: str) -> str:
+    return name.removeprefix("figures.").replace("_", " ").replace(".", ", ")
