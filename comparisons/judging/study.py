@@ -5,7 +5,7 @@ page and the terminal show them. A new study is a module with a STUDY, which is 
 `comparisons.studies.STUDIES`: it appears in result.json, tables, JUnit, page and rerun by itself.
 Its physics is imported inside `solve`, so that reading a scene stays fast."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -218,6 +218,7 @@ class Study:
     )  # who says what no model does, in words
     # further names and values, after what it states in words
     facts: Callable[[Run], list[tuple[str, str]]] = lambda run: []
+    advice: Callable[[Run], str] = lambda run: ""  # a clause at the end of its line
     # its parts of the page, and its lines of the terminal, each with its name, where `page` and
     # `said` do not do
     blocks: Callable[[Run], list[Block]] | None = None
@@ -237,17 +238,14 @@ class Study:
         if self.blocks is not None or not self.title:
             return self.blocks(run) if self.blocks else []
         findings, quantities = run.findings[self.name], self._shown
-        figures = [f for f in findings.figures if f.quantity in quantities]
-        compared = {name for f in figures if f.against for name in (f.source, f.against)}
-        in_table = [f for f in figures if f.source in {*LABELS, *compared}]
-        others = [figure for figure in figures if figure not in in_table]
+        by_models, others = self._by_models(findings.figures)
         said = [s for s in findings.statements if (s.name, s.text) != (CONVERGED, "yes")]
         facts = in_words(said) + self.facts(run) + facts_of(others, quantities, self.sources)
         note = self.note(run) if callable(self.note) else self.note
         items = [Heading(self.title)] if self.section else []
         items.append(Pictures(tuple(self.pictures), abreast=True))
         below = in_context(run.problem.hertz, quantities)
-        items += [figure_table(in_table, quantities, below=below)] if in_table else []
+        items += [figure_table(by_models, quantities, below=below)] if by_models else []
         items += [Names(facts)] if facts else []
         items += [Note(note)] if note else []
         return [Block(self.section or self.name.replace("_", "-"), tuple(items), self.title)]
@@ -256,8 +254,16 @@ class Study:
         """Its lines of the terminal: what it judges, or its first figure."""
         if self.lines is not None:
             return self.lines(run)
-        text = line_of(run.findings[self.name].figures, self._shown) if self.title else ""
-        return [(self.title.lower(), text)] if text else []
+        by_models, others = self._by_models(run.findings[self.name].figures)
+        text = line_of(by_models or others, self._shown) if self.title else ""
+        return [(self.title.lower(), text + self.advice(run))] if text else []
+
+    def _by_models(self, figures: Iterable[Figure]) -> list[list[Figure]]:
+        """Those by models and by what is compared with one, which are a table; and all others."""
+        known = [figure for figure in figures if figure.quantity in self._shown]
+        compared = {name for f in known if f.against for name in (f.source, f.against)}
+        models = {*LABELS, *compared}
+        return [[f for f in known if (f.source in models) == wanted] for wanted in (True, False)]
 
     @property
     def _shown(self) -> Mapping[str, Quantity]:

@@ -12,7 +12,7 @@ PARTIAL_SLIP = Study(
     title="Partial slip",
     note=show.NOTE,
     facts=show.slip_facts,
+    advice=show.next_step,
     pictures=show.PICTURES,
     files=show.files,
-    lines=show.lines,
 )

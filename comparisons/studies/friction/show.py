@@ -1,6 +1,6 @@
 """Partial slip on the page and in the terminal.
 
-In: a run with [partial_slip]. Out: facts, pictures of the tractions and of the loop, a line."""
+In: a run with [partial_slip]. Out: facts, pictures of the tractions and of the loop."""
 
 import numpy as np
 
@@ -15,11 +15,10 @@ from comparisons.drawing.curves import (
     over,
     panels,
 )
-from comparisons.drawing.tables import line_of
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.judging.study import Run
 from comparisons.studies.friction.half_planes import SlippedLevel, last_visit
-from comparisons.studies.friction.partial_slip import NAME, QUANTITIES
+from comparisons.studies.friction.partial_slip import NAME
 
 NOTE = """Tractions at the end of the path of loads, at the scene's largest friction coefficient:
 where the surfaces stick |q| < μp, where they slip |q| = μp. Of alike half-planes q is the
@@ -56,11 +55,6 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
         facts.append(("the cycle", "since that load was reached before"))
     zones = (f"{len(level.zones[-1])} ({LABELS[name]})" for name, level in run.data(NAME).items())
     return [*facts, ("zones that stick", ", ".join(zones))]
-
-
-def lines(run: Run) -> list[tuple[str, str]]:
-    """What decides, and what to do about it."""
-    return [("partial slip", line_of(run.findings[NAME].figures, QUANTITIES) + next_step(run))]
 
 
 def next_step(run: Run) -> str:

@@ -10,8 +10,10 @@ STUDY = Study(
     solve=solve,
     applies=lambda solved: solved.problem.scene.heat is not None,
     begin=begin,
-    blocks=show.blocks,
+    title="Frictional heat",
+    note=show.note,
+    sources=show.RULES,
+    facts=show.heat_facts,
     pictures=show.PICTURES,
     files=show.files,
-    lines=show.lines,
 )

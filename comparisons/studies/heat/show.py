@@ -1,29 +1,19 @@
 """Flash temperatures on the page and in the terminal.
 
-In: a run with [heat]. Out: a table, facts, pictures of both surfaces and below, lines."""
+In: a run with [heat]. Out: facts, pictures of both surfaces and below."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from comparisons.common.numbers import percent, plain, scale_of, significant, with_unit
+from comparisons.common.numbers import plain, scale_of, significant, with_unit
 from comparisons.drawing import style
-from comparisons.drawing.blocks import (
-    Block,
-    Names,
-    Note,
-    Pictures,
-    TextTable,
-    model_cells,
-    model_table,
-)
 from comparisons.drawing.curves import draw, legend_above, names_above, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
-from comparisons.figures.figure import Figures
 from comparisons.figures.quantity import LABELS, MODELS
 from comparisons.judging.study import Run
-from comparisons.studies.heat.half_space import HEATED, WITHOUT, reach_of
-from comparisons.studies.heat.study import COMPARED, NAME, OTHER_PRESSURES, QUANTITIES
+from comparisons.studies.heat.half_space import reach_of
+from comparisons.studies.heat.study import NAME, OTHER_PRESSURES
 
 HEIGHT = 1.9  # inches, of a field
 RULES = {
@@ -31,7 +21,6 @@ RULES = {
     "equal_mean": "one fraction, mean temperatures equal (Jaeger)",
     "conductivities": "one fraction, by conductivities alone (Seireg)",
 }
-OF_RULES = "flash_temperature", "fraction_into_body"
 NOTE = """Heat μ p V of the solved pressures, at the scene's largest friction coefficient. It
 divides between both bodies so that their surfaces have one temperature wherever they touch; one
 fraction for the whole contact is what older rules take. The pattern of pressures is taken as steady
@@ -55,73 +44,27 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
     }
 
 
-def blocks(run: Run) -> list[Block]:
-    note = Note(NOTE + OF_STRESSES * bool(run.data(NAME).stresses))
-    shown = Names(heat_facts(run)), note, Pictures(("heat_below",), abreast=True)
-    return [Block("heat", (Pictures(("heat_surfaces",)), heat_table, *shown), "Frictional heat")]
-
-
-def heat_table(run: Run) -> TextTable:
-    """A row for each figure, then what older rules say of the first."""
-    known, others = run.figures.of(study=NAME), []
-    for rule, words in RULES.items():
-        rise, share = (known.one(source=rule, quantity=name).value for name in OF_RULES)
-        rises, enters = f"{significant(rise)} K", f"{percent(share)} enter the body"
-        others.append((f"{words}\n{enters}", rises, "", "", "", "", ""))
-    return model_table(known, {name: QUANTITIES[name] for name in COMPARED}, _cells, others)
-
-
-def _cells(known: Figures, quantity: str, unit: str) -> tuple[str, ...]:
-    """Of both models, a stress also without heat."""
-    cells = list(model_cells(known, quantity, unit))
-    for place, name in enumerate(MODELS):
-        if (cold := known.one(quantity=f"{quantity}{WITHOUT}", source=name)) is not None:
-            cells[place] += f" ({with_unit(cold.value, unit)} without)"
-    return tuple(cells)
+def note(run: Run) -> str:
+    return NOTE + OF_STRESSES * bool(run.data(NAME).stresses)
 
 
 def heat_facts(run: Run) -> list[tuple[str, str]]:
-    """What moves, what the finite elements have, and where the largest rise stands."""
+    """What moves, and what the difference of the largest rise is made of."""
     study, heat = run.data(NAME), run.problem.scene.heat
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
-    known = run.figures.of(study=NAME)
-    peclet = [f"{f.source} {significant(f.value, 3)}" for f in known.of(quantity="peclet_number")]
-    places = (contact.places["flash_temperature"][0] for contact in study.contacts.values())
     reach = with_unit(reach_of(run.problem), "m")
     facts = [
         ("surfaces pass the contact at", f"body {body}, roller {roller}"),
-        ("Peclet number V a / 2κ", ", ".join(peclet)),
         ("bulk temperature", f"{plain(heat.bulk_temperature)} K, at rest {reach} away"),
-        ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
-        ("the finite elements alone have", ", ".join(study.contains.values())),
     ]
-    flash = known.of(quantity="flash_temperature")
+    flash = run.figures.of(study=NAME, quantity="flash_temperature")
     figure = flash.one(against=MODELS[1]) or flash.one(source=list(run.runs)[-1])
     for part in sorted(figure.parts, key=lambda part: part.name != OTHER_PRESSURES):
         name = f"change of the largest rise without {study.contains.get(part.name)}"
-        changed = replace(figure, value=part.value).sized(part.uncertainty)
         if part.name == OTHER_PRESSURES:
             name = "difference of both models by their pressures"
-            changed = percent(part.value, signed=True, uncertainty=figure.numerical)
-        facts.append((name, changed))
-    return [fact for fact in facts if fact[1]]
-
-
-def lines(run: Run) -> list[tuple[str, str]]:
-    """The largest rise in a line, and largest stresses with heat in others."""
-    known, said = run.figures.of(study=NAME), []
-    for quantity in ("flash_temperature", *HEATED):
-        sources = {figure.source for figure in known.of(quantity=quantity, against=None)}
-        if not sources & set(MODELS):
-            continue
-        cells = zip(MODELS, _cells(known, quantity, QUANTITIES[quantity].unit), strict=False)
-        values = [f"{cell} ({LABELS[name]})" for name, cell in cells if name in sources]
-        name = QUANTITIES[quantity].label if quantity in HEATED else "flash temperature"
-        text = f"{name} {', '.join(values)}"
-        if (difference := known.one(quantity=quantity, against=MODELS[1])) is not None:
-            text += f": {difference.words()}, {difference.verdict}"
-        said.append(("heat", text))
-    return said
+        facts.append((name, replace(figure, value=part.value).sized(part.uncertainty)))
+    return facts
 
 
 def surfaces_picture(run: Run) -> style.Picture:

@@ -40,14 +40,13 @@ QUANTITIES = {
     "mean_temperature": Quantity("mean rise, by heat", "K"),
     "fraction_into_body": Quantity("heat that enters the body"),
     "tau1_heated": Quantity("largest τ₁ with heat", "Pa"),
-    "tau1_depth_heated": Quantity("depth of that τ₁", "m"),
+    "tau1_heated_without_heat": Quantity("largest τ₁ without heat", "Pa"),
+    "tau1_depth_heated": Quantity("depth of the largest τ₁ with heat", "m"),
+    "tau1_depth_heated_without_heat": Quantity("depth of the largest τ₁ without heat", "m"),
     "sx_heated": Quantity("largest tensile σx of the surface with heat", "Pa"),
-    "tau1_heated_without_heat": Quantity("the same without", "Pa"),
-    "tau1_depth_heated_without_heat": Quantity("the same without", "m"),
-    "sx_heated_without_heat": Quantity("the same without", "Pa"),
+    "sx_heated_without_heat": Quantity("largest tensile σx of the surface without heat", "Pa"),
     "peclet_number": Quantity("Peclet number V a / 2κ"),
 }
-COMPARED = tuple(QUANTITIES)[:6]  # by both models
 OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field

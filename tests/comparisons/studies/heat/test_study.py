@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 from scenes import BOTH_CONDUCT, GROUND, QUICK, changed, refound, resolved, run_of
 
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
+from comparisons.studies.heat import STUDY
 from comparisons.studies.heat.half_space import HEAT_QUANTITIES
-from comparisons.studies.heat.show import heat_facts, lines
+from comparisons.studies.heat.show import heat_facts
 from comparisons.studies.heat.study import HEATED, WITHOUT
 
 TRACE = changed(GROUND, load={"friction": [0.0, 0.1]}) | {
@@ -158,9 +160,13 @@ def test_thermal_stresses_in_every_output(stressed):
     assert "Last, σx of the body's surface; wide and pale: without heat." in page.replace(
         "&#39;", "'"
     )
-    assert "agree" in lines(stressed)[0][1]
-    said = "; ".join(text for _, text in lines(stressed))
-    assert "199." in said and "without)" in said and "agree" in said
+    [block], [(_, said)] = STUDY.page(stressed), STUDY.said(stressed)
+    assert "agree" in said
+    [table] = [item for item in block.items if isinstance(item, TextTable)]
+    shown = {row[0]: row for row in table.rows}
+    for name in HEATED:
+        assert shown[STUDY.quantities[name].label][-1] == "agree"
+        assert float(shown[STUDY.quantities[f"{name}{WITHOUT}"].label][2].split()[0]) > 0.0
     rows = {row["quantity"]: row for row in rows_of(result, "made") if not row["against"]}
     assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
 
