@@ -3,7 +3,7 @@
 In: figures, and what they are of. Out: a table with a row a quantity and a column a source, names
 and values of what no model says, and what decides in a sentence."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
@@ -84,7 +84,7 @@ def in_context(hertz: "HertzContact", quantities: Mapping[str, Quantity]) -> Bel
 
 
 def figure_table(
-    figures: Iterable[Figure],
+    figures: Sequence[Figure],
     quantities: Mapping[str, Quantity],
     title: str = "",
     below: Below = lambda figure: "",
@@ -97,10 +97,10 @@ def figure_table(
     tolerance, verdict; then what `beside` says by its heads of the row's difference, or value.
 
     brief  short names, and values alone, in four digits"""
-    known = [f for name in quantities for f in figures if f.quantity == name]
+    known = _in_order(figures, quantities)
     sources = dict.fromkeys(f.source for f in known if f.against is None)
     pairs = {(f.source, f.against) for f in known if f.against is not None}
-    is_judged = bool(pairs) or any(f.bounds for f in known)
+    is_judged = any(figure.bounds for figure in known)
     has_friction, rows = any(f.friction is not None for f in known), []
     for same in grouped(known, lambda figure: (figure.quantity, figure.friction)):
         values = {figure.source: figure for figure in same if figure.against is None}
@@ -114,24 +114,24 @@ def figure_table(
         bounded = [figure for figure in values.values() if figure.bounds is not None]
         differences = [figure for figure in same if figure.against is not None]
         for figure in differences or bounded or same[:1]:
-            name, judged = quantity.short if brief else quantity.label, [""] * 4
+            name, off, judged = quantity.short if brief else quantity.label, ("", ""), ("", "")
             if figure.against is not None:
                 name = _lines(name, _pair(figure) if len(pairs) > 1 else "", below(figure))
-                judged = [_difference(figure, signed=bool(values)), percent(figure.numerical)]
+                size = percent(figure.value, signed=bool(values), uncertainty=figure.numerical)
+                off = size, percent(figure.numerical)
             if figure.bounds is not None:
-                judged[2:] = _allowed(figure, quantity.unit), figure.verdict
-            elif figure.against is not None:
-                judged += "", ""
-            more = [say(figure) for say in beside.values()]
-            rows.append((figure, (name, *texts, *judged * is_judged, *more)))
-    cells = [
-        (name, *[listed(f.friction for f, _ in alike if f.friction is not None)] * has_friction, *c)
-        for alike in grouped(rows, lambda row: (row[0].quantity, row[1]))
-        for name, *c in [alike[0][1]]
-    ]
+                judged = _allowed(figure, quantity.unit), figure.verdict
+            more = (say(figure) for say in beside.values())
+            cells = *texts, *off * bool(pairs), *judged * is_judged, *more
+            rows.append((figure, (name, *cells)))
+    joined = []
+    for alike in grouped(rows, lambda row: (row[0].quantity, row[1])):
+        name, *cells = alike[0][1]
+        frictions = listed(f.friction for f, _ in alike if f.friction is not None)
+        joined.append((name, *[frictions] * has_friction, *cells))
     head = ("quantity", *["friction"] * has_friction, *(LABELS.get(n, n) for n in sources))
-    head += ("difference", "uncertainty", "tolerance", "verdict") * is_judged
-    return TextTable(title, (*head, *beside), tuple(cells), "comparison", words=bool(beside))
+    head += ("difference", "uncertainty") * bool(pairs) + ("tolerance", "verdict") * is_judged
+    return TextTable(title, (*head, *beside), tuple(joined), "comparison", words=bool(beside))
 
 
 def _lines(*texts: str) -> str:
@@ -142,10 +142,6 @@ def _pair(figure: Figure) -> str:
     return " against ".join(LABELS.get(name, name) for name in (figure.source, figure.against))
 
 
-def _difference(figure: Figure, signed: bool) -> str:
-    return percent(figure.value, signed=signed, uncertainty=figure.numerical)
-
-
 def _allowed(figure: Figure, unit: str) -> str:
     """The tolerance of a difference; of a value by itself the most that it may be."""
     if figure.against is not None:
@@ -154,11 +150,11 @@ def _allowed(figure: Figure, unit: str) -> str:
 
 
 def facts_of(
-    figures: Iterable[Figure], quantities: Mapping[str, Quantity], names: Mapping[str, str] = {}
+    figures: Sequence[Figure], quantities: Mapping[str, Quantity], names: Mapping[str, str] = {}
 ) -> list[tuple[str, str]]:
     """What a table does not hold, as names and values: by whom, and at which friction where there
     are several."""
-    known = [f for name in quantities for f in figures if f.quantity == name]
+    known = _in_order(figures, quantities)
     several = len({figure.friction for figure in known} - {None}) > 1
     facts = []
     for figure in known:
@@ -179,39 +175,50 @@ def in_words(statements: Iterable[Statement]) -> list[tuple[str, str]]:
     return said
 
 
-def line_of(figures: Iterable[Figure], quantities: Mapping[str, Quantity]) -> str:
-    """What is judged in a sentence: the first figure, where all agree or hold, else how many do
+def line_of(figures: Sequence[Figure], quantities: Mapping[str, Quantity]) -> str:
+    """What is judged in a sentence: the first quantity, where all agree or hold, else how many do
     not, and which is farthest outside its tolerance or nearest to it. Where nothing is judged, the
-    first figure by each source."""
-    known = [f for name in quantities for f in figures if f.quantity == name]
+    first quantity by each source. Of several friction coefficients at the largest."""
+    known = _in_order(figures, quantities)
     judged = [figure for figure in known if figure.bounds is not None]
     if not known:
         return ""
-    deciding, before, after = (judged or known)[0], "", ""
     worst = next((v for v in WORST_FIRST for f in judged if f.verdict == v), "")
-    alike = [figure for figure in judged if figure.verdict == worst]
-    if worst in PASSED:
-        after = f"; all {len(judged)} {deciding.verdict}" if judged[1:] else ""
-    elif worst:
+    alike = [figure for figure in judged if figure.verdict == worst] or known
+    said, after = "", ""
+    if worst in ("", *PASSED):
+        first = [figure for figure in alike if figure.quantity == alike[0].quantity]
+        deciding = max(first, key=lambda figure: figure.friction or 0.0)
+        after = f"; all {len(judged)} {worst}" if judged[1:] else ""
+    else:
         deciding = nearest_to_tolerance(alike)
         which = "the farthest outside" if worst in FAILED else "nearest to its tolerance"
         which = f"; {which}" if alike[1:] else ""
-        before = f"{len(alike)} of {len(judged)} {worst}{which}: " if judged[1:] else ""
-    meaning = quantities[deciding.quantity]
-    values = [f for f in known if (f.quantity, f.at) == (deciding.quantity, deciding.at)]
+        said = f"{len(alike)} of {len(judged)} {worst}{which}: " if judged[1:] else ""
+    meaning, same = quantities[deciding.quantity], _alike(known, deciding)
     by = [
         f"{in_its_unit(figure, quantities)} ({LABELS.get(figure.source, figure.source)})"
-        for figure in values
+        for figure in same
         if figure.against is None
     ]
     at = f" at friction {plain(deciding.friction)}" if len({f.friction for f in known}) > 1 else ""
-    said = " ".join(filter(None, (f"{before}{meaning.label}{at}", ", ".join(by))))
-    if deciding.against is not None:
-        pair = _pair(deciding) if len({f.against for f in known} - {None}) > 1 else ""
-        said += f"{':' * bool(by)} {_lines(deciding.words(), pair)}".replace("\n", ", ")
-    elif deciding.bounds is not None:
+    said += " ".join(filter(None, (f"{meaning.label}{at}", ", ".join(by))))
+    if deciding.bounds is not None and deciding.against is None:
         said += f" ({_allowed(deciding, meaning.unit)}: {deciding.verdict})"
+    differences = [f for f in (deciding, *same) if f.against is not None][:1]
+    for figure in differences:
+        pair = f", {_pair(figure)}" if len({f.against for f in same}) > 2 else ""
+        said += f"{':' * bool(by)} {figure.words()}{pair}"
     return said + after
+
+
+def _alike(known: Sequence[Figure], one: Figure) -> list[Figure]:
+    """The same quantity at the same friction coefficient."""
+    return [figure for figure in known if (figure.quantity, figure.at) == (one.quantity, one.at)]
+
+
+def _in_order(figures: Sequence[Figure], quantities: Iterable[str]) -> list[Figure]:
+    return [figure for name in quantities for figure in figures if figure.quantity == name]
 
 
 def stated_text(column: Column) -> list[str]:

@@ -55,34 +55,26 @@ QUANTITIES: dict[str, Quantity] = {
     "contact_length": Quantity(
         "contact length", "m", _half_width, short="contact length", over=(2.0, "× 2a")
     ),
-    "tau1_max": _stress("largest principal shear stress", "τ₁ max"),
+    "tau1_max": _stress("largest principal shear stress τ₁", "τ₁ max"),
     "tau1_max_depth": Quantity(
-        *("depth of the largest principal shear", "m", _half_width),
+        *("depth of the largest τ₁", "m", _half_width),
         needs_stress=True,
         short="τ₁ max depth",
         over=(1.0, "a"),
     ),
-    "txz_max_abs": _stress("largest orthogonal shear stress", "|txz| max"),
+    "txz_max_abs": _stress("largest orthogonal shear stress |τxz|", "|txz| max"),
 }
 # Of every comparison, shown and not judged; that of tau1 over the common window of the fields.
 NORMS = {
     "pressure_l2": Quantity("pressures, relative L2 difference", short="pressure, L2"),
-    "tau1_l2": Quantity("field of tau1, relative L2 difference", needs_stress=True, short="τ₁, L2"),
+    "tau1_l2": Quantity("field of τ₁, relative L2 difference", needs_stress=True, short="τ₁, L2"),
 }
 COMPARED = QUANTITIES | NORMS
-
-_SYMBOLS = {
-    "tau1_max": "largest principal shear stress τ₁",
-    "tau1_max_depth": "depth of the largest τ₁",
-    "txz_max_abs": "largest orthogonal shear stress |τxz|",
-}
 
 
 def label(quantity: str) -> str:
     """A quantity of result.json in words; a name that is none stays as it is."""
-    if quantity not in COMPARED:
-        return quantity.replace("_", " ")
-    return _SYMBOLS.get(quantity, COMPARED[quantity].label.replace("tau1", "τ₁"))
+    return COMPARED[quantity].label if quantity in COMPARED else quantity.replace("_", " ")
 
 
 def error_text(value: float, uncertainty: float | None = None) -> str:

@@ -14,17 +14,15 @@ import numpy as np
 
 from analytic.contact.patches import CLEAR
 from analytic.grid import HatGrid
-from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.common.tasks import Tasks
-from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Findings, Series, Statement, columns_of
-from comparisons.figures.quantity import COMPARED, NORMS, Quantity, label
+from comparisons.figures.quantity import COMPARED, NORMS, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact
 from comparisons.judging.comparison import relative_l2
 from comparisons.judging.contact import values_of
-from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Run, Solved, Study
+from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved, Study
 from comparisons.models.analytic import analytic_level
 from comparisons.models.level import Level
 from comparisons.models.plan import no_coupling
@@ -40,8 +38,8 @@ QUANTITIES = contact.QUANTITIES | {
 }
 UNCOUPLED = "uncoupled"  # the half-plane without it
 NOTE = """Normal-tangential coupling: sliding traction also moves the surfaces of unlike bodies up
-and down, in proportion to friction times Dundurs' β. {}. Solved on the finest pressure elements; a
-is the Hertz half-width."""
+and down, in proportion to friction times Dundurs' β. {}; of the shift over the
+Hertz half-width. Solved on the finest pressure elements."""
 CONTAINED = "The half-plane's figures contain that; the change is against those without"
 NOT_CONTAINED = """The figures above do not contain that, as the method was published; the change is
 against them"""
@@ -183,58 +181,14 @@ def _centroid(level: Level) -> float:
     return float(level.grid.x @ pressure / pressure.sum())
 
 
-def coupling_table(run: Run) -> TextTable | None:
-    """Figures with the surfaces moved, and the change; None where friction moves nothing."""
-    changes = run.figures.of(study=NAME)
-    if not changes:
-        return None
-    frictions, rows = list(dict.fromkeys(figure.friction for figure in changes)), []
-    for name in (SHIFT, *COMPARED):
-        cells = [cell for friction in frictions for cell in _cells(run, name, friction)]
-        if any(cells):
-            rows.append((QUANTITIES[name].label if name == SHIFT else label(name), *cells))
-    head = [cell for friction in frictions for cell in (f"friction {plain(friction)}", "change")]
-    return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
-
-
-def lines(run: Run) -> list[tuple[str, str]]:
-    """The change at the largest friction in one sentence."""
-    friction = max(run.problem.scene.load.friction, key=abs)
-    if (why := run.findings[NAME].said(WHY_NOT, friction=friction)) is not None:
-        return [("coupling", f"not known: {why}")]
-    contained = "contained" if run.problem.scene.load.coupled else "not in the half-plane"
-    shift, of_a = _cells(run, SHIFT, friction, digits=3)
-    peak, length = (_cells(run, n, friction)[1] for n in ("peak_pressure", "contact_length"))
-    text = (
-        f"friction {plain(friction)} moves the surfaces ({contained}): the contact by "
-        f"{shift} ({of_a}), peak pressure {peak}, contact length {length}"
-    )
-    return [("coupling", text)]
-
-
-def _cells(run: Run, name: str, friction: float, digits: int = 4) -> tuple[str, str]:
-    """The figure and its change, in percent; of a shift, of the Hertz half-width."""
-    both = run.figures.of(study=NAME, quantity=name, friction=friction)
-    value, change = both.one(against=None), both.one(against=UNCOUPLED)
-    if value is None:
-        return "", percent(change.value) if change else ""
-    moved = percent(change and change.value, signed=True)
-    text = with_unit(value.value, QUANTITIES[name].unit, digits)
-    return text, f"{moved} of a" if name == SHIFT else moved
-
-
-def blocks(run: Run) -> list[Block]:
-    if (table := coupling_table(run)) is None:
-        return []
-    note = NOTE.format(CONTAINED if run.problem.scene.load.coupled else NOT_CONTAINED)
-    return [Block("contact", (table, Note(note)))]
-
-
 STUDY = Study(
     name=NAME,
     quantities=QUANTITIES,
     solve=solve,
     applies=lambda solved: solved.plan.coupling,
-    blocks=blocks,
-    lines=lines,
+    title="Surfaces moved by friction",
+    section="contact",
+    note=lambda run: NOTE.format(CONTAINED if run.problem.scene.load.coupled else NOT_CONTAINED),
+    advice=lambda run: "" if run.problem.scene.load.coupled else ", not in the figures above",
+    shown=(SHIFT, *COMPARED),
 )

@@ -5,7 +5,7 @@ page and the terminal show them. A new study is a module with a STUDY, which is 
 `comparisons.studies.STUDIES`: it appears in result.json, tables, JUnit, page and rerun by itself.
 Its physics is imported inside `solve`, so that reading a scene stays fast."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.errors import ExitStatus
-from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures
-from comparisons.drawing.tables import facts_of, figure_table, in_context, in_words, line_of
+from comparisons.drawing.blocks import Block
 from comparisons.figures.figure import FAILED, Figure, Figures, Findings, Statement
-from comparisons.figures.quantity import LABELS, WHOLE, Quantity
+from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
@@ -208,19 +207,20 @@ class Study:
     # makes known to the tasks what `solve` will ask for; again once more is solved, and known tasks
     # stay as they are
     begin: "Callable[[Solved, Tasks], None]" = lambda solved, tasks: None
+    # how `comparisons.judging.presentation` shows it
     title: str = ""  # of its part of the page; a study without one has none, and no line
     section: str = ""  # of another study, which it is shown in; "": its own
+    caption: Callable[[Run], str] = lambda run: ""  # of its table
     note: str | Callable[[Run], str] = ""  # how to read what is shown
-    # quantities of its table, in their order; None: all
+    # names of quantities and statements that are shown, in their order; None: all
     shown: Sequence[str] | None = None
-    sources: Mapping[str, str] = field(
-        default_factory=dict
-    )  # who says what no model does, in words
-    # further names and values, after what it states in words
+    # who says what no model does, in words
+    sources: Mapping[str, str] = field(default_factory=dict)
+    # further names and values, after what it states
     facts: Callable[[Run], list[tuple[str, str]]] = lambda run: []
     advice: Callable[[Run], str] = lambda run: ""  # a clause at the end of its line
-    # its parts of the page, and its lines of the terminal, each with its name, where `page` and
-    # `said` do not do
+    # its parts of the page, and its lines of the terminal, each with its name, where that does not
+    # do
     blocks: Callable[[Run], list[Block]] | None = None
     lines: Callable[[Run], list[tuple[str, str]]] | None = None
     # what draws its pictures, by name; None where there is nothing to draw
@@ -231,44 +231,6 @@ class Study:
     verdicts: Callable[[Run], list[tuple[str, str]]] = lambda run: []
     # a sentence after the verdict on the model error that is nearest to its tolerance, or nothing
     remark: Callable[[Run, Figure], str] = lambda run, error: ""
-
-    def page(self, run: Run) -> list[Block]:
-        """Its pictures, a table of its figures by models, and of others with what it states as
-        names and values; then the note."""
-        if self.blocks is not None or not self.title:
-            return self.blocks(run) if self.blocks else []
-        findings, quantities = run.findings[self.name], self._shown
-        by_models, others = self._by_models(findings.figures)
-        said = [s for s in findings.statements if (s.name, s.text) != (CONVERGED, "yes")]
-        facts = in_words(said) + self.facts(run) + facts_of(others, quantities, self.sources)
-        note = self.note(run) if callable(self.note) else self.note
-        items = [Heading(self.title)] if self.section else []
-        items.append(Pictures(tuple(self.pictures), abreast=True))
-        below = in_context(run.problem.hertz, quantities)
-        items += [figure_table(by_models, quantities, below=below)] if by_models else []
-        items += [Names(facts)] if facts else []
-        items += [Note(note)] if note else []
-        return [Block(self.section or self.name.replace("_", "-"), tuple(items), self.title)]
-
-    def said(self, run: Run) -> list[tuple[str, str]]:
-        """Its lines of the terminal: what it judges, or its first figure."""
-        if self.lines is not None:
-            return self.lines(run)
-        by_models, others = self._by_models(run.findings[self.name].figures)
-        text = line_of(by_models or others, self._shown) if self.title else ""
-        return [(self.title.lower(), text + self.advice(run))] if text else []
-
-    def _by_models(self, figures: Iterable[Figure]) -> list[list[Figure]]:
-        """Those by models and by what is compared with one, which are a table; and all others."""
-        known = [figure for figure in figures if figure.quantity in self._shown]
-        compared = {name for f in known if f.against for name in (f.source, f.against)}
-        models = {*LABELS, *compared}
-        return [[f for f in known if (f.source in models) == wanted] for wanted in (True, False)]
-
-    @property
-    def _shown(self) -> Mapping[str, Quantity]:
-        names = self.quantities if self.shown is None else self.shown
-        return {name: self.quantities[name] for name in names}
 
 
 def studied(

@@ -18,7 +18,6 @@ from analytic.exact.hertz import hertz_extremes
 from analytic.exact.shakedown import UNIT, shakedown_limit
 from analytic.surface.roughness import summits
 from comparisons.common.numbers import percent, plain, significant, with_unit
-from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Findings, Statement, figures_of
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
@@ -37,7 +36,6 @@ from comparisons.scenes.scene import Scene
 
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
-STRESSES_FROM = {FIELD: "the field", PEAK: "the peak pressure"}
 BEYOND_DOUBT, AT_SUCH_STRESSES = "beyond doubt", "at such stresses"  # names of what is said of flow
 PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
 QUANTITIES = {
@@ -56,7 +54,8 @@ QUANTITIES = {
     PLASTIC_STRAIN: Quantity("largest equivalent plastic strain"),
     STRAIN_BY_SLOPE: Quantity("that strain times the slope of the surface"),
 }
-BY_THE_PEAK = "from the peak pressure: those below Hertz's contact of the same peak pressure"
+CAPPED = " whose pressure is capped"
+BY_THE_PEAK = ", by those below Hertz's contact of the same peak pressure"
 OF_A_YIELD_STRESS = """First flow: τ₁ = Y/2 (Tresca, in the plane), or von Mises' stress = Y; a
 hardness stands for Y = H/3, a yield stress for H = 3 Y (Tabor). Elastic shakedown: the largest peak
 pressure over k = Y/√3 (von Mises, as finite elements flow) of a line contact that may roll and
@@ -324,56 +323,37 @@ def flow_sentence(run: Run) -> str:
     return f"{FLOW_IN_WORDS[flow.flow]}; {largest}"
 
 
-def flow_table(run: Run) -> TextTable:
-    """Figures of flow by friction coefficient, those that are known."""
-    frictions, known = run.problem.scene.load.friction, run.figures.of(study=NAME)
-
-    def row(quantity: str) -> tuple[str, ...]:
-        meaning, of_scene = QUANTITIES[quantity], known.one(quantity=quantity, friction=None)
-        texts = []
-        for friction in frictions:
-            figure = known.one(quantity=quantity, friction=friction) or of_scene
-            value = figure and figure.value
-            by_unit = with_unit(value, meaning.unit) if meaning.unit else significant(value, 3)
-            texts.append(percent(value) if quantity == "share_at_hardness" else by_unit)
-        return meaning.label, *texts
-
-    read = (run.findings[NAME].said("read", friction=friction) for friction in frictions)
-    there = {figure.quantity for figure in known}
-    rows = [("stresses from", *map(STRESSES_FROM.get, read))]
-    rows += [row(name) for name in list(QUANTITIES)[3:] if name in there]
-    head = ("", *(f"friction {plain(friction)}" for friction in frictions))
-    return TextTable(flow_sentence(run), head, tuple(rows))
-
-
-def blocks(run: Run) -> list[Block]:
-    scene = run.problem.scene
-    capped = " whose pressure is capped" * bool(scene.body.hardness)
-    note = f"Stresses of the elastic half-plane{capped}; {BY_THE_PEAK}."
-    if (yield_stress := run.data(NAME).yield_stress) is not None:
-        caps = (with_unit(cap * yield_stress, "Pa", 2) for cap in (LEAST_CAP, TABOR))
-        note += f" {OF_A_YIELD_STRESS.format(*caps)}" + f" {OF_A_TRACE}" * bool(scene.profile)
-    else:
-        note += " The scene has neither yield stress nor hardness: what flows is not known."
-    return [Block("yield", (flow_table, Note(note)), "Yield")]
+def note(run: Run) -> str:
+    """How to read the figures of flow."""
+    scene, flow = run.problem.scene, run.data(NAME)
+    said = "Stresses of the elastic half-plane" + CAPPED * bool(scene.body.hardness)
+    said += f"{BY_THE_PEAK * (flow.worst.von_mises is None)}."
+    if flow.yield_stress is None:
+        return f"{said} The scene has neither yield stress nor hardness: what flows is not known."
+    caps = (with_unit(cap * flow.yield_stress, "Pa", 2) for cap in (LEAST_CAP, TABOR))
+    return f"{said} {OF_A_YIELD_STRESS.format(*caps)}" + f" {OF_A_TRACE}" * bool(scene.profile)
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
     """That it flows where no model shows it; with a yield stress shakedown and, of a rough body,
     its plasticity, at the largest shear."""
-    flow = run.data(NAME)
+    flow, names = run.data(NAME), tuple(QUANTITIES)[8:12]
     flows = flows_at_such(run.problem.scene, flow)
-    said = [("flow", flows)] if flows else []
-    if flow.ratio is None:
-        return said
-    pressure = significant(flow.worst.peak / flow.yield_in_shear, 3)
-    limit = f"elastic shakedown up to {shakedown_limit(flow.worst.friction)[0]:.3g} k, k = Y/√3"
-    text = f"peak pressure {pressure} k, {limit}"
-    known, figures = [], run.figures.of(study=NAME)
-    for word in ("summits", "slope"):
-        if (index := figures.one(quantity=f"plasticity_index_{word}")) is not None:
-            known.append(f"{significant(index.value, 2)} ({word})")
-    return [*said, ("yield", f"{text}; plasticity index {', '.join(known)}" if known else text)]
+    at = None, flow.worst.friction
+    known = [f for f in run.findings[NAME].figures if f.quantity in names and f.friction in at]
+    texts = (f"{QUANTITIES[f.quantity].label} {significant(f.value, 3)}" for f in known)
+    said = [("flow", flows), ("yield", ", ".join(texts))]
+    return [line for line in said if line[1]]
 
 
-STUDY = Study(NAME, QUANTITIES, solve, blocks=blocks, lines=lines)
+STUDY = Study(
+    NAME,
+    QUANTITIES,
+    solve,
+    title="Yield",
+    caption=flow_sentence,
+    note=note,
+    shown=tuple(QUANTITIES),
+    sources={"scene": ""},
+    lines=lines,
+)

@@ -8,6 +8,7 @@ from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
 from comparisons.judging.ladder import cost
 from comparisons.judging.model_error.show import contributions, model_error_rows
+from comparisons.judging.presentation import lines_of
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.headline import headline, verdicts
 from comparisons.models.smooth import scale_words
@@ -195,7 +196,7 @@ def _facts(outcome: Run) -> "Table":
         rows.append(("surface", surface_text(surface)))
     for study in STUDIES:
         if study.name in outcome.findings:
-            rows += study.said(outcome)
+            rows += lines_of(study, outcome)
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     budget = outcome.data(MODEL_ERROR)

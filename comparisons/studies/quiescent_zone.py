@@ -272,7 +272,7 @@ STUDY = Study(
     title="Quiescent zone",
     section="stresses",
     note=NOTE,
-    shown=tuple(QUANTITIES)[:5],
+    shown=(*tuple(QUANTITIES)[:5], STATE),
     facts=facts,
     lines=lines,
 )

@@ -23,6 +23,7 @@ from comparisons.drawing.blocks import (
 from comparisons.drawing.style import drawing, load_matplotlib
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
+from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 from comparisons.output.page.html import STYLES, rendered
@@ -136,7 +137,7 @@ def sections(run: Run) -> list[Block]:
     blocks = [*_before(run), *_stresses(run), *_after(run)]
     for study in STUDIES:
         if study.name in run.findings:
-            made = attempted(study.name, partial(study.page, run))
+            made = attempted(study.name, partial(parts_of, study, run))
             if not isinstance(made, list):
                 made = [Block(study.name, (made, Pictures(tuple(study.pictures))), study.name)]
             blocks += made

@@ -9,8 +9,8 @@ import pytest
 import scenes
 from scenes import DATA, STEEL, changed, half_plane_at, refound, run_of
 
-from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import no_progress
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging import coupling
 from comparisons.judging.coupling import (
@@ -21,12 +21,8 @@ from comparisons.judging.coupling import (
     couplings,
 )
 from comparisons.judging.effects.estimates import estimates
-from comparisons.judging.study import (
-    WHY_NOT,
-    Case,
-    Run,
-    Solved,
-)
+from comparisons.judging.presentation import parts_of
+from comparisons.judging.study import WHY_NOT, Case, Run, Solved
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
@@ -163,9 +159,10 @@ class TestFigures:
         figures = coupling.figures_of_changes(added, problem, rigid.findings["contact"].figures)
         figures = [figure for figure in figures if figure.quantity == "tau1_max_depth"]
         assert [(figure.value, figure.against) for figure in figures] == [(3e-5, None)]
-        table = coupling.coupling_table(refound(rigid, coupling.NAME, figures=tuple(figures)))
-        [row] = [row for row in table.rows if "depth" in row[0]]
-        assert row[1:] == ("30.00 µm", UNKNOWN)
+        [block] = parts_of(coupling.STUDY, refound(rigid, coupling.NAME, figures=tuple(figures)))
+        [table] = [item for item in block.items if isinstance(item, TextTable)]
+        [row] = table.rows
+        assert "depth" in row[0] and row[2].startswith("30") and "µm" in row[2] and len(row) == 3
         effect = estimate(problem, (added,))
         assert effect["peak_pressure"] == pytest.approx(0.5)
         scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
@@ -176,7 +173,7 @@ class TestFigures:
         outcome = solved(ALIKE, friction=friction)
         [because] = [item.because for item in outcome.plan.skipped if item.step == "coupling"]
         assert why in because
-        assert coupling.NAME not in outcome.findings and coupling.coupling_table(outcome) is None
+        assert coupling.NAME not in outcome.findings
 
     def test_softer_roller_moves_the_contact_the_other_way(self):
         one = solved(RIGID, friction=0.3)

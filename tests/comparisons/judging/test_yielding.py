@@ -6,13 +6,9 @@ from scenes import STEADY, STEEL, run_of
 
 from analytic.material import Material
 from comparisons.common.errors import ExitStatus
+from comparisons.judging.presentation import parts_of
 from comparisons.judging.verdict.headline import headline, kind_of
-from comparisons.judging.yielding import (
-    blocks,
-    flow_assessment,
-    flow_sentence,
-    flow_table,
-)
+from comparisons.judging.yielding import STUDY, flow_assessment, flow_sentence, note
 from comparisons.output.junit import run_cases_of
 
 GOLDEN = 0.5 * (1.0 + 5.0**0.5)
@@ -27,6 +23,12 @@ def outcome_of(peak=1e9, friction=0.0, stress=True, **body):
         "budget": {"effects": False, "time": 1.0},
     }
     return run_of(tables | ({"stress": {"points": [60, 20]}} if stress else {}), "half_plane")
+
+
+def items(outcome):
+    """Of its part of the page, after the pictures that it has none of."""
+    [block] = parts_of(STUDY, outcome)
+    return block.items[1:]
 
 
 def test_first_flow_of_a_smooth_contact_by_both_criteria():
@@ -58,7 +60,8 @@ def test_without_a_strength_the_sentence_says_what_it_takes():
     known = outcome.figures.of(study="yield")
     assert known.one(quantity="yield_stress") is None
     assert [figure.friction for figure in known.of(quantity="tau1_max")] == [0.0, 0.4]
-    assert len(flow_table(outcome).rows) == 3
+    table, _, _ = items(outcome)
+    assert len(table.rows) == 4  # two stresses under two friction coefficients
 
 
 def test_beyond_the_ideal_strength_nothing_is_elastic_but_rubber():
@@ -95,8 +98,7 @@ def test_a_rough_body_at_its_cap(wavy_outcome, finish):
     assert low.data("yield").worst.at_hardness == pytest.approx(share, rel=1e-12)
     assert flow_sentence(low).startswith("flow is the cap alone")
     assert low.data("yield").beyond_doubt == ""
-    [block] = blocks(low)
-    assert "only roughly: 2.4 Y to 3 Y, here 960 MPa to 1.2 GPa, fit" in block.items[1].text
+    assert "only roughly: 2.4 Y to 3 Y, here 960 MPa to 1.2 GPa, fit" in note(low)
 
 
 def test_plasticity_indices_of_a_wave(wavy_outcome):
@@ -131,6 +133,6 @@ def test_shakedown_is_said_beside_a_yield_stress(smooth_outcome, finish):
     peak = float(outcome.runs["half_plane"].finest.solution.pressure.max())
     over = known.one(quantity="peak_pressure_over_shear_yield").value
     assert over == pytest.approx(3.0**0.5 * peak / 1e9)
-    rows = {row[0]: row[1] for row in flow_table(outcome).rows}
-    assert rows["elastic shakedown up to"] == "4.00"
+    _, facts, _ = items(outcome)
+    assert dict(facts.rows)["elastic shakedown up to"] == "4.000"
     assert flow_assessment(smooth_outcome.solved).ratio is None

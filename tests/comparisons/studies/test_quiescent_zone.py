@@ -9,6 +9,7 @@ from scipy.optimize import minimize_scalar, root_scalar
 
 from analytic.exact.hertz import HertzContact, hertz_stress
 from comparisons.drawing.blocks import Names
+from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import WHY_NOT
 from comparisons.models.window import window_of
 from comparisons.studies import quiescent_zone as q
@@ -160,12 +161,12 @@ def test_a_field_that_ends_before_says_so(name, value):
     outcome = run_of(WAVY, "half_plane", stress={name: value, "points": [60, 20]})
     why = outcome.findings[q.NAME].said(WHY_NOT)
     assert why == f"stress.{name} is less than {'1' if name == 'half_range' else '0.8'} a"
-    [block] = q.STUDY.page(outcome)
+    [block] = parts_of(q.STUDY, outcome)
     assert Names([(WHY_NOT, why)]) in block.items and q.lines(outcome) == []
 
 
 def test_table_facts_and_line_say_what_the_figures_are(wavy):
-    [block], [(_, line)] = q.STUDY.page(wavy), q.lines(wavy)
+    [block], [(_, line)] = parts_of(q.STUDY, wavy), q.lines(wavy)
     _, _, table, facts, _ = block.items
     states = [text for name, text in facts.rows if name.startswith(f"{q.STATE}, half-plane")]
     assert states == [q.QUIESCENT, q.BRIDGED]

@@ -11,7 +11,6 @@ from scenes import PROJECT
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.drawing import blocks, style
-from comparisons.judging import yielding
 from comparisons.output.page import page
 from comparisons.output.page.tables import verification
 
@@ -45,14 +44,16 @@ def test_it_is_named_in_its_place_and_all_else_is_there(tmp_path, monkeypatch, c
     assert capsys.readouterr().err.count("\n") == 0
     for name in ("overview", "fields"):
         monkeypatch.setitem(page.PICTURES, name, fails)
-    monkeypatch.setattr(yielding, "flow_sentence", fails)
     monkeypatch.setattr(verification, "record_rows", fails)
+    [yielding] = [study for study in page.STUDIES if study.name == "yield"]
     [problem] = [study for study in page.STUDIES if study.name == "problem"]
-    monkeypatch.setattr(page, "STUDIES", (*page.STUDIES, replace(problem, blocks=fails)))
+    failing = replace(yielding, caption=fails), replace(problem, blocks=fails)
+    others = (study for study in page.STUDIES if study is not yielding)
+    monkeypatch.setattr(page, "STUDIES", (*others, *failing))
     assert main(RUN) == 0
     out, err = capsys.readouterr()
     assert "out/report.html" in out
-    lost = "overview", "fields", "problem", "flow table", "record"
+    lost = "overview", "fields", "problem", "yield", "record"
     why = "ZeroDivisionError: no *size* in test_lost_pictures.py, line "
     said = err.splitlines()
     for line, name in zip(said, sorted(lost, key=err.index), strict=True):

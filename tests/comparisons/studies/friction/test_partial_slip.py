@@ -11,10 +11,8 @@ from analytic.stress.fatigue import ruiz
 from comparisons.common.errors import SceneError
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import (
-    Case,
-    unsolved,
-)
+from comparisons.judging.presentation import parts_of
+from comparisons.judging.study import Case, unsolved
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
 from comparisons.output.flat_csv import rows_of
@@ -173,7 +171,7 @@ def test_an_answer_from_outside_may_have_tractions(tmp_path, factor, verdict):
     assert known.one(quantity="stick_length", against="half_plane").verdict == verdict
     norm = known.one(quantity="traction_l2")
     assert (norm.value < norm.numerical < 0.03) == (verdict == "agree")
-    [block] = PARTIAL_SLIP.page(outcome)
+    [block] = parts_of(PARTIAL_SLIP, outcome)
     [table] = [item for item in block.items if isinstance(item, TextTable)]
     [row] = [row for row in table.rows if row[0].startswith("length that sticks")]
     assert row[table.head.index("exact")] and row[-1] == verdict

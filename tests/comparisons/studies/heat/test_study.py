@@ -10,6 +10,7 @@ from scenes import BOTH_CONDUCT, GROUND, QUICK, changed, refound, resolved, run_
 
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.presentation import lines_of, parts_of
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
 from comparisons.output.record import read_result
@@ -160,7 +161,7 @@ def test_thermal_stresses_in_every_output(stressed):
     assert "Last, σx of the body's surface; wide and pale: without heat." in page.replace(
         "&#39;", "'"
     )
-    [block], [(_, said)] = STUDY.page(stressed), STUDY.said(stressed)
+    [block], [(_, said)] = parts_of(STUDY, stressed), lines_of(STUDY, stressed)
     assert "agree" in said
     [table] = [item for item in block.items if isinstance(item, TextTable)]
     shown = {row[0]: row for row in table.rows}
