@@ -121,6 +121,12 @@ class Figure:
         return self.value / self.scale if self.against is None else self.value
 
     @property
+    def by_inputs(self) -> float:
+        """Half the interval of its spread, over the scale."""
+        low, high = self.spread.interval
+        return 0.5 * (high - low) / self.scale
+
+    @property
     def numerical(self) -> float:
         """Total uncertainty over the scale; infinite where it is not stated or unknown."""
         return math.inf if self.uncertainty is None else self.uncertainty.total

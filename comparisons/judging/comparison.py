@@ -127,13 +127,14 @@ def relative_resolution(level: Level, reference: Level) -> float:
 
 
 def norms(level: Level, reference: Level, window: Window | None) -> dict[str, float]:
-    """The norms of a pair of levels on the same pressure elements."""
-    stresses = level.stress, reference.stress
-    return pair_norms(
-        (level.solution.pressure, reference.solution.pressure),
-        tuple(None if stress is None else stress.tau1 for stress in stresses),
-        window,
-    )
+    """Relative L2 norms of the difference of the pressures of two levels on the same elements, and
+    of their tau1 on the window, where both have that."""
+    sizes = {"pressure_l2": relative_l2(level.solution.pressure, reference.solution.pressure)}
+    tau1 = [known.stress and known.stress.tau1 for known in (level, reference)]
+    if all(field is not None for field in tau1):
+        thickness = np.gradient(window.z)[:, None]  # of the layer that each depth stands for
+        sizes["tau1_l2"] = relative_l2(*tau1, thickness)
+    return sizes
 
 
 def relative_l2(
@@ -148,20 +149,6 @@ def relative_l2(
     if size == 0.0:
         return 0.0 if not np.any(values) else np.inf
     return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))
-
-
-def pair_norms(
-    pressures: tuple[np.ndarray, np.ndarray],
-    tau1: tuple[np.ndarray | None, np.ndarray | None],
-    window: Window | None,
-) -> dict[str, float]:
-    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k) on
-    the window, None without one; the second of each is the reference."""
-    sizes = {"pressure_l2": relative_l2(*pressures)}
-    if all(field is not None for field in tau1):
-        thickness = np.gradient(window.z)[:, None]  # of the layer that each depth stands for
-        sizes["tau1_l2"] = relative_l2(*tau1, thickness)
-    return sizes
 
 
 def discretisations(case: Case) -> dict[str, float]:

@@ -12,7 +12,7 @@ model error lies within E +- u_val."""
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from itertools import pairwise
 from operator import itemgetter
 
@@ -21,7 +21,6 @@ import numpy as np
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import (
-    Column,
     Figure,
     Figures,
     Findings,
@@ -31,22 +30,15 @@ from comparisons.figures.figure import (
     grouped,
 )
 from comparisons.figures.quantity import COMPARED, NORMS, Quantity
-from comparisons.figures.uncertainty import (
-    Uncertainty,
-    iteration,
-    length_resolution,
-    peak_resolution,
-)
-from comparisons.judging.comparison import norms, pair_norms, relative_differences
-from comparisons.judging.contact import by_repetition, uncertainties, values_of
+from comparisons.figures.uncertainty import Uncertainty, difference_of_figures, peak_resolution
+from comparisons.judging.comparison import norms, norms_of, relative_differences
+from comparisons.judging.contact import uncertainties, values_of
 from comparisons.judging.study import SCATTER, Case, Solved
-from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.models.level import Level, StressResult
 from comparisons.models.window import Window
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.conditions import conditions, operators_of
 from comparisons.studies.answers.hints import hints
-from comparisons.studies.scatter.study import by_inputs
 
 NAME = "answers"
 CONDITIONS, HINTS, VALIDATION = "contact conditions", "hints", "validation"  # series
@@ -72,28 +64,24 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     for name, source in problem.scene.answers.items():
         finest, validation = answers[name][-1], []
         frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
-        for friction in frictions:
-            case = solved.case(friction)
+        cases = [solved.case(friction) for friction in frictions]
+        for case in cases:
             figures += _figures(case, solved.window, name, answers[name])
             if source.scatter is not None:
-                measured = figures_of_answer(finest, problem, friction)
-                known = scattered.of(friction=friction)
-                validation += _validation(case, measured, source.scatter, known)
+                known = scattered.of(friction=case.friction)
+                validation += _validation(case, finest, source.scatter, known)
         balance = finest.load / problem.hertz.load_per_length - 1.0
         figures += figures_of(NAME, name, {"load_balance": balance}, ITSELF)
         figures += figures_of(NAME, name, {"spacing": finest.spacing})
-        *_, model = solved.case(frictions[0]).runs.values()
-        by_model = [
-            {"model": model} | residuals
-            for model, residuals in conditions(finest, problem, operators).items()
-        ]
+        *_, model = cases[0].runs.values()
+        known = conditions(finest, problem, operators).items()
         by_quantity = grouped(validation, itemgetter("quantity"))
         tables = {
-            CONDITIONS: by_model,
-            HINTS: [asdict(h) for h in hints(finest, problem, model.finest)],
+            CONDITIONS: [{"model": model} | residuals for model, residuals in known],
+            HINTS: [asdict(hint) for hint in hints(finest, problem, model.finest)],
             VALIDATION: [row for rows in by_quantity for row in rows],
         }
-        series += _tables_of(name, tables)
+        series += [_errors(key, name, rows) for key, rows in tables.items() if rows]
         files = columns_of([{"file": a.file, "sha256": a.sha256} for a in answers[name]])
         series.append(Series("files", files, name, is_account=True))
     return Findings(tuple(figures), tuple(series), data=answers)
@@ -107,27 +95,37 @@ def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:
     return tasks.held(NAME, NAME, lambda: read_answers(solved.problem, solved.window))
 
 
-def _tables_of(answer: str, tables: Mapping[str, list[dict]]) -> Iterator[Series]:
-    """Those that have rows; numbers are errors, as sure as their order of size."""
-    for name, rows in tables.items():
-        columns = columns_of(rows)
-        for key, column in columns.items():
-            if key != "friction" and all(isinstance(value, float) for value in column.values):
-                columns[key] = Column(column.values, "", tuple(map(abs, column.values)))
-        if rows:
-            yield Series(name, columns, answer)
+def _errors(name: str, answer: str, rows: list[dict]) -> Series:
+    """Rows whose numbers are errors, as sure as their order of size."""
+    sizes = {
+        key: [abs(row[key]) for row in rows]
+        for key in rows[0]
+        if key != "friction" and all(isinstance(row[key], float) for row in rows)
+    }
+    return Series(name, columns_of(rows, uncertainties=sizes), answer)
 
 
-def figures_of_answer(answer: Answer, problem: Problem, friction: float) -> dict[str, float]:
+def figures_of_answer(answer: Answer, case: Case) -> dict[str, float]:
     """The compared quantities of an answer, as `values_of` has those of a model."""
     length = float(np.ptp(answer.patches, axis=1).sum())
     values = {"peak_pressure": float(answer.pressure.max()), "contact_length": length}
     stress = answer.stress
-    if stress is not None and stress.friction == friction:
+    if stress is not None and stress.friction == case.friction:
         values["tau1_max"] = stress.extremes["tau1"].value
         values["tau1_max_depth"] = stress.depth
         values["txz_max_abs"] = stress.extremes["txz"].value
     return values
+
+
+def _on_level(answer: Answer, level: Level, case: Case) -> Level:
+    """An answer's pressures and stresses in place of a level's; no stresses of another friction
+    coefficient, or of too little of the window."""
+    stress, known = None, answer.stress
+    is_of_case = known is not None and known.friction == case.friction
+    if is_of_case and np.isfinite(known.field.tau1).mean() >= COVERED:
+        stress = StressResult(known.friction, known.extremes, {}, known.field)
+    solution = replace(level.solution, pressure=answer.on(level.grid.x))
+    return replace(level, solution=solution, stress=stress)
 
 
 def _figures(
@@ -136,46 +134,39 @@ def _figures(
     """An answer's figures in a case, where it has them, and their differences from the last
     model's, (answer - model) / model, or norms, in the order of COMPARED. Uncertain is a difference
     by the model and by the answer's own, or else by how finely its points are read."""
-    problem, friction, (*_, model) = case.problem, case.friction, case.runs.values()
+    problem, finest, (*_, model) = case.problem, answers[-1], case.runs.values()
     scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
-    finest, first = answers[-1], model.levels[0]
-
-    def against(answer: Answer, level: Level) -> dict[str, float]:
-        return _differences(answer, level, problem, friction, window)
-
-    by_level = [against(finest, level) for level in model.levels]
-    by_file = [against(answer, model.finest) for answer in answers]
-    repeated = by_repetition(model, lambda level: against(finest, level))
-    repeated |= by_repetition(model, lambda level: norms(level, first, window))
-    values = figures_of_answer(finest, problem, friction)
-    reference = values_of(model.finest, problem)
-    for quantity, difference in by_level[-1].items():
-        order, size = COMPARED[quantity].formal_order, abs(1.0 + difference)
-        resolution, scale = 0.0, abs(reference.get(quantity, 0.0)) or 1.0
+    values, reference = figures_of_answer(finest, case), values_of(model.finest, problem)
+    both = values.keys() & reference.keys()
+    levels = tuple(_on_level(finest, level, case) for level in model.levels)
+    of_norms = norms_of(replace(model, name=name, levels=levels), model, case, window)
+    stated = uncertainties(model, problem) | {f.quantity: f.uncertainty for f in of_norms}
+    by_answer = []
+    for answer in answers:
+        own = figures_of_answer(answer, case)
+        one = relative_differences({n: own[n] for n in both & own.keys()}, reference, problem)
+        by_answer.append(one | norms(_on_level(answer, model.finest, case), model.finest, window))
+    for quantity in COMPARED:
+        if (difference := by_answer[-1].get(quantity)) is None:
+            continue
+        scale, size = abs(reference.get(quantity, 0.0)) or 1.0, 1.0 + difference
+        size = 1.0 if quantity in NORMS else size
         reading = _reading(finest, quantity) / scale
-        if quantity == "contact_length":
-            grid, patches = model.finest.grid, model.finest.patches
-            resolution = length_resolution(grid.pitch, len(patches)) / scale
-        history = [differences[quantity] for differences in by_level]
-        unsure = grid_convergence(history, order, resolution).uncertainty
-        unsure += max(1.0, size) * iteration(model.finest.solution)
-        unsure += sum(repeated[quantity])
-        by_answer = [differences.get(quantity) for differences in by_file]
-        stated = _stated(quantity, by_answer, answers, reading)
+        sure = _stated(quantity, [one.get(quantity) for one in by_answer], answers, reading)
         if scatter is not None:
-            stated = (stated or 0.0) + scatter * (1.0 if quantity in NORMS else size)
-        own = None if stated is None else {"own": stated}
-        common = {"study": NAME, "quantity": quantity, "source": name}
-        common["at"] = case.at
+            sure = (sure or 0.0) + scatter * abs(size)
+        own = None if sure is None else {"own": sure}
+        common = {"study": NAME, "quantity": quantity, "source": name, "at": case.at}
         if (value := values.get(quantity)) is not None:
-            sure = own and Uncertainty(own)
-            yield Figure(value=value, scale=abs(value) or 1.0, uncertainty=sure, **common)
+            unsure = own and Uncertainty(own)
+            yield Figure(value=value, scale=abs(value) or 1.0, uncertainty=unsure, **common)
         tolerance = tolerances.get(quantity)
+        by_model = difference_of_figures(0.0, size, stated[quantity].total)
         yield Figure(
             value=difference,
             against=model.name,
             scale=scale,
-            uncertainty=Uncertainty({"model": unsure} | (own or {"reading": reading})),
+            uncertainty=Uncertainty({"model": by_model} | (own or {"reading": reading})),
             bounds=(-tolerance, tolerance) if tolerance else None,
             **common,
         )
@@ -205,39 +196,14 @@ def _stated(
     return grid_convergence(values, order, reading).uncertainty
 
 
-def _differences(
-    answer: Answer, level: Level, problem: Problem, friction: float, window: Window | None
-) -> dict[str, float]:
-    """(answer - level) / level of every figure that both have, and the norms."""
-    stress, other = answer.stress, level.stress
-    tau1 = None
-    if stress is not None and stress.friction == friction and other is not None:
-        tau1 = stress.field.tau1
-        tau1 = tau1 if np.isfinite(tau1).mean() >= COVERED else None
-    differences = pair_norms(
-        (answer.on(level.grid.x), level.solution.pressure),
-        (tau1, None if other is None else other.tau1),
-        window,
-    )
-    reference = values_of(level, problem)
-    values = figures_of_answer(answer, problem, friction)
-    both = {name: value for name, value in values.items() if name in reference}
-    differences |= relative_differences(both, reference, problem)
-    return {name: differences[name] for name in COMPARED if name in differences}
-
-
 def _validation(
-    case: Case,
-    measured: Mapping[str, float],
-    u_data: float,
-    scattered: Figures,
-) -> Iterator[dict]:
-    """Rows by model and quantity.
+    case: Case, answer: Answer, u_data: float, scattered: Figures
+) -> Iterator[dict[str, object]]:
+    """Rows by model and quantity of data whose relative scatter is `u_data`.
 
-    measured   the data's figures by quantity, SI; `u_data` is their relative scatter
-    scattered  the half-plane's by uncertain inputs; where one is not known, u_input is None and
-               counts as none"""
-    friction = case.friction
+    scattered  the half-plane's figures by uncertain inputs; where one is not known, u_input is None
+               and counts as none"""
+    measured = figures_of_answer(answer, case)
     for name, run in case.runs.items():
         stated = uncertainties(run, case.problem)
         for quantity, value in values_of(run.finest, case.problem).items():
@@ -245,7 +211,7 @@ def _validation(
                 continue
             ratio, inputs = value / measured[quantity], scattered.one(quantity=quantity)
             u_num = abs(ratio) * stated[quantity].total
-            u_input = abs(ratio) * by_inputs(inputs) if inputs else None
+            u_input = abs(ratio) * inputs.by_inputs if inputs else None
             u_val = math.hypot(u_num, u_input or 0.0, u_data)
-            row = {"quantity": quantity, "friction": friction, "model": name, "E": ratio - 1.0}
+            row = {"quantity": quantity, "friction": case.friction, "model": name, "E": ratio - 1.0}
             yield row | {"u_num": u_num, "u_input": u_input, "u_D": u_data, "u_val": u_val}

@@ -131,12 +131,6 @@ def _scattered(
     )
 
 
-def by_inputs(figure: Figure) -> float:
-    """Half the interval of a figure's spread, relative."""
-    low, high = figure.spread.interval
-    return 0.5 * (high - low) / figure.scale
-
-
 def _points(problem: Problem) -> np.ndarray:
     wanted = problem.scene.scatter
     return designs(wanted.samples, len(wanted.inputs), wanted.seed)
@@ -259,7 +253,7 @@ def _cells(figure: Figure) -> tuple[str, ...]:
         with_unit(value, unit) for value in (figure.value, spread.mean, *spread.interval)
     )
     parts = ", ".join(largest_shares(figure))
-    return nominal, mean, f"{low} to {high}", f"±{percent(by_inputs(figure))}", parts
+    return nominal, mean, f"{low} to {high}", f"±{percent(figure.by_inputs)}", parts
 
 
 def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:
@@ -280,7 +274,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
     for figure in run.figures.of(study=NAME, friction=run.deciding_friction):
         if figure.quantity in run.problem.scene.tolerances:
             most = ", ".join(largest_shares(figure, 1))
-            text = f"{label(figure.quantity)} ±{percent(by_inputs(figure))}, most by {most}"
+            text = f"{label(figure.quantity)} ±{percent(figure.by_inputs)}, most by {most}"
             said.append(("inputs", text))
     return said
 
@@ -290,9 +284,9 @@ def remark(run: Run, error: Figure) -> str:
     tolerance: a model error below that is not what a user would see first."""
     quantity = error.quantity
     figure = run.figures.one(study=NAME, quantity=quantity, friction=error.friction)
-    if figure is None or by_inputs(figure) <= error.tolerance:
+    if figure is None or figure.by_inputs <= error.tolerance:
         return ""
-    size, moved = abs(error.value), by_inputs(figure)
+    size, moved = abs(error.value), figure.by_inputs
     if size + error.numerical < SMALL * moved:
         how = "is small beside it"
     elif size - error.numerical > moved:

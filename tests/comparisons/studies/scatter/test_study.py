@@ -22,7 +22,7 @@ from comparisons.runs.run import run
 from comparisons.scenes.studies.scatter import Spread
 from comparisons.scenes.surface import surface_of
 from comparisons.studies.scatter.shares import designs
-from comparisons.studies.scatter.study import begin, by_inputs, sampled, solve, values_at
+from comparisons.studies.scatter.study import begin, sampled, solve, values_at
 
 INPUTS = {"load": "4 %", "body_youngs_modulus": "6 %", "roller_radius": "3 %"}
 SCENE = changed(SMOOTH, scatter=INPUTS | {"samples": 64, "seed": 3})
@@ -56,7 +56,7 @@ def test_mean_and_interval_are_those_of_hertz(outcome, exact, quantity):
     assert figure.spread.mean == pytest.approx(values.mean(), rel=2e-3)
     assert figure.spread.deviation == pytest.approx(values.std(), rel=0.1)
     low, high = np.percentile(values, (2.5, 97.5))
-    assert by_inputs(figure) == pytest.approx(0.5 * (high - low) / np.median(values), rel=0.15)
+    assert figure.by_inputs == pytest.approx(0.5 * (high - low) / np.median(values), rel=0.15)
 
 
 def test_shares_are_those_of_the_powers_in_hertz(outcome):
