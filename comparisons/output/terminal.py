@@ -20,13 +20,15 @@ from comparisons.output.page.tables.comparison import (
 )
 from comparisons.output.page.tables.problem import surface_text
 from comparisons.studies import STUDIES
-from comparisons.studies.answers.show import answer_facts, answer_rows, answers_of, reference_of
+from comparisons.studies.answers.show import answer_facts, answer_table, answers_of
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
     from rich.text import Text
 
+NARROW = {"friction": "mu", "difference": "differ.\n%", "uncertainty": "uncert.\n%"}
+NARROW |= {"tolerance": "tol.\n%"}  # heads of columns
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged", "no", "NO"), "bold red")
 STYLES |= {"yes": "green"}
@@ -128,13 +130,9 @@ def _model_errors(run: Run) -> "Table":
 
 def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
     """An answer from outside beside its reference, and what is to be said of it."""
-    numbers = ("mu", answer, LABELS[reference_of(outcome)].replace(" ", "\n"))
-    numbers += ("differ.\n%", "uncert.\n%", "tol.\n%")
-    shown = [
-        _bare((SHORT[row.quantity], row.friction, *row.cells[:4], *row.cells[5:]))
-        for row in answer_rows(outcome, answer)
-    ]
-    table = plain_table("quantity", numbers=numbers, last="verdict", rows=shown)
+    shown = answer_table(outcome, answer, brief=True)
+    first, *numbers, last = (NARROW.get(head, head.replace(" ", "\n")) for head in shown.head)
+    table = plain_table(first, numbers=numbers, last=last, rows=map(_bare, shown.rows))
     table.title = f"{answer}, from outside"
     return [table, *(plain_text(f"{n}: {text}") for n, text in answer_facts(outcome, answer))]
 

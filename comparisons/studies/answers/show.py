@@ -3,7 +3,6 @@
 In: a run with answers. Out: tables, facts, pictures of pressures and of principal shears."""
 
 from collections.abc import Mapping
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,20 +16,11 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.drawing import style
-from comparisons.drawing.blocks import (
-    Block,
-    Heading,
-    Names,
-    Note,
-    Pictures,
-    TableRow,
-    TextTable,
-    compared_cells,
-    table_rows,
-)
-from comparisons.drawing.curves import COINCIDE, over, panels
+from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures, TextTable
+from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
-from comparisons.figures.figure import Figure, Series, nearest_to_tolerance
+from comparisons.drawing.tables import figure_table
+from comparisons.figures.figure import nearest_to_tolerance
 from comparisons.figures.quantity import COMPARED, LABELS, label
 from comparisons.judging import contact
 from comparisons.judging.study import Run
@@ -42,10 +32,11 @@ if TYPE_CHECKING:
 
 PANELS = ((0.3, 2.4), (0.2, 1.0))  # inches above each panel, and its height: pressures, differences
 MARKED = 100  # points: fewer are marked on the curve
+SIZES = ("u_num", "u_input", "u_D", "u_val")
 COLOURS = ("#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")  # Okabe and Ito's others
-NOT_STATED = "not stated"
 NOTE = """Difference: (answer − model) / model. Uncertainty: the model's, with the answer's own
-where several resolutions or a scatter state it, else with the spacing of its points in a length.
+where several resolutions or a scatter state it (± at its values), else with the spacing of its
+points in a length.
 Contact conditions: the answer's pressures on the models' elements, zero when exact: the work of the
 pressures on the gaps that they leave, and the largest overlap, both relative. E: model less data;
 u_val: root of the sum of squares of u_num, u_input and u_D."""
@@ -64,12 +55,10 @@ def reference_of(run: Run) -> str:
 def blocks(run: Run) -> list[Block]:
     items: list = [Pictures(("answers",))]
     for name in answers_of(run):
-        table = partial(answer_table, answer=name)
         kind, sentence = answer_verdict(run, name)
-        said = Note(f"*{kind.upper()}*  {sentence}")
-        items += [Heading(name), said, table, Names(answer_facts(run, name))]
-        if (measured := run.findings[NAME].table(VALIDATION, name)) is not None:
-            items.append(partial(_validation_table, measured=measured))
+        said = Note(f"*{kind.upper()}*  {sentence}"), answer_table(run, name)
+        items += [Heading(name), *said, Names(answer_facts(run, name))]
+        items += _validation_tables(run, name)
     return [Block("answers", (*items, Note(NOTE)), "Answers from outside")]
 
 
@@ -100,18 +89,13 @@ def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
     return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."
 
 
-def answer_rows(run: Run, answer: str) -> list[TableRow]:
-    """The answer's figure and the reference's with unit, difference, uncertainty, the answer's own,
-    tolerance, verdict."""
-
-    def cells(difference: Figure) -> tuple[str, ...]:
-        values, unit = contact.pair_of(run, difference), COMPARED[difference.quantity].unit
-        own = difference.uncertainty.parts.get("own")
-        *first, tolerance, verdict = compared_cells(difference, values, unit)
-        return *first, NOT_STATED if own is None else percent(own), tolerance, verdict
-
-    known = run.figures.of(study=NAME, source=answer, against=reference_of(run))
-    return table_rows(known, COMPARED, cells)
+def answer_table(run: Run, answer: str, brief: bool = False) -> TextTable:
+    """The answer's figures beside the reference's, which it is compared in."""
+    own = run.figures.of(study=NAME, source=answer)
+    compared = {(figure.quantity, figure.friction) for figure in own if figure.against}
+    reference = run.figures.of(study=contact.NAME, source=reference_of(run))
+    known = [figure for figure in reference if (figure.quantity, figure.friction) in compared]
+    return figure_table([*own, *known], COMPARED, brief=brief)
 
 
 def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
@@ -135,28 +119,22 @@ def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
     return [*facts, *(("hint", text) for text in (named.columns["text"].values if named else ()))]
 
 
-def answer_table(run: Run, answer: str) -> TextTable:
-    """The rows of an answer for the page."""
-    head = ("quantity", "friction", answer, LABELS[reference_of(run)], "difference")
-    head += ("uncertainty", "its own", "tolerance", "verdict")
-    rows = ((label(row.quantity), row.friction, *row.cells) for row in answer_rows(run, answer))
-    return TextTable("", head, tuple(rows), "comparison")
-
-
-def _validation_table(run: Run, measured: Series) -> TextTable:
-    """V&V 20's comparison of measured data with each model."""
-    sizes = ("u_num", "u_input", "u_D", "u_val")
+def _validation_tables(run: Run, answer: str) -> list[TextTable]:
+    """V&V 20's comparison of measured data with each model; none of an answer without scatter."""
+    measured = run.findings[NAME].table(VALIDATION, answer)
+    if measured is None:
+        return []
     rows = tuple(
         (
             f"{label(row['quantity'])}, {LABELS[row['model']]}",
             plain(row["friction"]),
             percent(row["E"], signed=True),
-            *(percent(row[size]) for size in sizes),
+            *(percent(row[size]) for size in SIZES),
         )
         for row in measured.rows()
     )
-    head = ("model less data", "friction", "E", *sizes)
-    return TextTable("In the terms of ASME V&V 20", head, rows)
+    head = ("model less data", "friction", "E", *SIZES)
+    return [TextTable("In the terms of ASME V&V 20", head, rows)]
 
 
 def answer_pictures(run: Run) -> list[style.Picture]:
@@ -198,23 +176,17 @@ def _curves(axes: "list[Axes]", run: Run, answer: Answer, look: dict) -> None:
 
 
 def _shear(run: Run, name: str, answer: Answer) -> style.Picture:
-    """An answer's field, its reference's, and the difference; one alone where they coincide."""
+    """An answer's field, its reference's, and the difference."""
     hertz, window, stress = run.problem.hertz, run.window, answer.stress
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     reference = run.solved.case(stress.friction).runs[reference_of(run)].finest.stress
     fields = [known.field.tau1 / hertz.peak_pressure for known in (stress, reference)]
     names = name, LABELS[reference_of(run)]
     shown = [FieldPanel(*panel) for panel in zip(names, fields, strict=True)]
-    scale = ColourScale.over("τ₁/p₀", fields)
     apart = fields[0] - fields[1]
-    difference: tuple[str, ColourScale] | None = None
-    if np.nanmax(np.abs(apart)) > COINCIDE * np.nanmax(np.abs(fields[1])):
-        difference = " − ".join(names), ColourScale.of_differences("Δτ₁/p₀", [apart])
-        said = "and their difference, striped where negative"
-    else:
-        shown = [FieldPanel(" = ".join(names), fields[1])]
-        said = f"which coincide within {significant(np.nanmax(np.abs(apart)), 2)} p₀"
-    drawn = draw_fields(x, z, shown, scale, difference=difference)
+    difference = " − ".join(names), ColourScale.of_differences("Δτ₁/p₀", [apart])
+    drawn = draw_fields(x, z, shown, ColourScale.over("τ₁/p₀", fields), difference=difference)
+    said = f"the largest of {significant(np.nanmax(np.abs(apart)), 2)} p₀"
     words = f"Principal shear stress τ₁ of {name} and of the {names[1]}, friction "
-    words += f"{plain(stress.friction)}, {said}."
+    words += f"{plain(stress.friction)}, and their difference, striped where negative, {said}."
     return style.picture(drawn, words, words, data=False)
