@@ -23,7 +23,8 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.drawing.blocks import Block, Note, TextTable, table_rows
+from comparisons.drawing.blocks import Block, Note
+from comparisons.drawing.tables import figure_table
 from comparisons.figures.figure import Figure, Findings, SampleSpread, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
@@ -236,24 +237,8 @@ def blocks(run: Run) -> list[Block]:
     why = findings.said("first failure")
     failures = f" {counts['failed']} had no solution, the first because: {why}."
     note = NOTE.format(solutions=counts["solutions"], failures=failures if why else "")
-    return [Block("inputs", (scatter_table, Note(note)), "Uncertain inputs")]
-
-
-def scatter_table(run: Run) -> TextTable:
-    """A row for each quantity, and each friction coefficient that matters."""
-    rows = table_rows(run.figures.of(study=NAME), QUANTITIES, _cells)
-    head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
-    cells = ((label(row.quantity), row.friction, *row.cells) for row in rows)
-    return TextTable("Half-plane", head, tuple(cells))
-
-
-def _cells(figure: Figure) -> tuple[str, ...]:
-    unit, spread = QUANTITIES[figure.quantity].unit, figure.spread
-    nominal, mean, low, high = (
-        with_unit(value, unit) for value in (figure.value, spread.mean, *spread.interval)
-    )
-    parts = ", ".join(largest_shares(figure))
-    return nominal, mean, f"{low} to {high}", f"±{percent(figure.by_inputs)}", parts
+    table = figure_table(findings.figures, QUANTITIES, beside=SPREAD)
+    return [Block("inputs", (table, Note(note)), "Uncertain inputs")]
 
 
 def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:
@@ -266,6 +251,20 @@ def largest_shares(figure: Figure, most: int = LISTED) -> list[str]:
         size = percent(max(part["first"], 0.0), uncertainty=part["first_uncertainty"])
         shares.append(f"{name} {size}")
     return shares
+
+
+# Columns of the table beside the figures themselves, by their heads.
+SPREAD = {
+    "mean": lambda figure: _in_unit(figure, figure.spread.mean),
+    "central 95 %": lambda figure: _in_unit(figure, *figure.spread.interval),
+    "of nominal": lambda figure: f"±{percent(figure.by_inputs)}",
+    "by input": lambda figure: ", ".join(largest_shares(figure)),
+}
+
+
+def _in_unit(figure: Figure, *values: float) -> str:
+    unit = QUANTITIES[figure.quantity].unit
+    return " to ".join(with_unit(value, unit) for value in values)
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
