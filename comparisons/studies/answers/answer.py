@@ -5,21 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.numerics import runs_of
-from analytic.stress_state import Extremum, StressState
+from comparisons.models.level import StressResult
 
 TOUCHING = 0.02  # of the largest pressure: what stresses of a mesh leave beside a contact is less
-
-
-@dataclass(frozen=True)
-class OutsideStress:
-    """Stresses of an answer, as those of a model."""
-
-    friction: float  # coefficient that they are of
-    # largest tau1, |txz| and von Mises stress at the nodes in the window [Pa], [m]
-    extremes: dict[str, Extremum]
-    depth: float  # [m] of the largest tau1 below the answer's own surface
-    spacing: float  # [m] in depth, of the nodes next to that
-    field: StressState  # (m, k) on the window, not a number outside the answer's mesh
 
 
 @dataclass(frozen=True)
@@ -30,7 +18,10 @@ class Answer:
     sha256: str
     x: np.ndarray  # (n,) [m] along the surface, ascending
     pressure: np.ndarray  # (n,) [Pa] as given: also where it is negative
-    stress: OutsideStress | None = None  # None: pressures alone
+    # at the nodes of a mesh in the window, depths from its own surface, and on the window, nan
+    # outside the mesh; None: pressures alone
+    stress: StressResult | None = None
+    depth_spacing: float = 0.0  # [m] in depth, of the nodes next to the largest tau1
     of_mesh: bool = False  # the pressures are stresses on the surface of a mesh
     shear: np.ndarray | None = None  # (n,) [Pa] traction towards +x; None: not given
     columns: str = ""  # names of those of a table, with the units that they name

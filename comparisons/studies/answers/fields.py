@@ -14,11 +14,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from analytic.stress_state import Extremum, StressState
+from comparisons.models.level import StressResult
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.scenes.fields import LARGEST, SMALLEST
 from comparisons.scenes.studies.answers import AnswerSection
-from comparisons.studies.answers.answer import OutsideStress
 from comparisons.studies.answers.meshes import read_mesh
 
 FEWEST = 5  # points that show a pressure
@@ -54,10 +54,10 @@ class PlaneMesh:
 
 def read_fields(
     path: Path, source: AnswerSection, problem: Problem, window: Window | None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, OutsideStress | None]:
-    """x (n,) [m], pressure and traction (n,) [Pa] along the surface, and the stresses on the
-    window; of a contact that friction holds none, for the models' are those of sliding.
-    Raises ValueError with what is wrong."""
+) -> tuple[tuple[np.ndarray, ...], dict[str, object]]:
+    """x (n,) [m], pressure and traction (n,) [Pa] along the surface, and the fields of an `Answer`
+    that stresses on the window make; of a contact that friction holds none, for the models' are
+    those of sliding. Raises ValueError with what is wrong."""
     frictions = problem.scene.load.friction
     friction = frictions[0] if source.friction is None else source.friction
     if friction not in frictions or (source.friction is None and len(frictions) > 1):
@@ -80,11 +80,11 @@ def read_fields(
             f"its surface lies {off:.3g} m off the scene's, or nowhere near x = 0; allowed is "
             "z_origin, x_origin or units that bring it there"
         )
-    stress = None
+    stresses = {}
     if window is not None and problem.scene.partial_slip is None:
         top = np.argsort(x)
-        stress = _stresses(body, (x[top], z[top]), friction, problem, window)
-    return *checked(x, pressure, shear), stress
+        stresses = _stresses(body, (x[top], z[top]), friction, problem, window)
+    return checked(x, pressure, shear), stresses
 
 
 def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -219,8 +219,8 @@ def _stresses(
     friction: float,
     problem: Problem,
     window: Window,
-) -> OutsideStress:
-    """Largest values at the nodes in the window, and the fields on it.
+) -> dict[str, object]:
+    """Largest values at the nodes in the window, the fields on it, and the nodes' distance.
 
     top  x and z (k,) [m] of the surface, x ascending"""
     stress, nu = body.stress, problem.scene.body.poissons_ratio
@@ -229,14 +229,14 @@ def _stresses(
         raise ValueError("has no node in the window of [stress]; allowed is one around x = 0")
     shears = {"tau1": stress.tau1, "txz": np.abs(stress.txz), "von_mises": stress.von_mises(nu)}
     nodes = {n: int(np.argmax(np.where(inside, v, -np.inf))) for n, v in shears.items()}
+    depths = body.z - np.interp(body.x, *top)
     extremes = {
-        name: Extremum(float(shears[name][node]), float(body.x[node]), float(body.z[node]))
+        name: Extremum(float(shears[name][node]), float(body.x[node]), float(depths[node]))
         for name, node in nodes.items()
     }
-    depth = extremes["tau1"].z - float(np.interp(extremes["tau1"].x, *top))
     beside = body.z[body.triangles[np.any(body.triangles == nodes["tau1"], axis=1)]]
-    spacing = 0.5 * float(np.ptp(beside))
-    return OutsideStress(friction, extremes, depth, spacing, _on_window(body, window))
+    stress = StressResult(friction, extremes, {}, _on_window(body, window))
+    return {"stress": stress, "depth_spacing": 0.5 * float(np.ptp(beside))}
 
 
 def _on_window(body: PlaneMesh, window: Window) -> StressState:

@@ -30,23 +30,24 @@ def _read(
 ) -> tuple[Answer, ...]:
     answers = []
     for file in source.file:
-        path, stress, shear, columns = problem.scene.folder / file, None, None, ""
+        path, known = problem.scene.folder / file, {}
         is_table = path.suffix.lower() in TABLES
         try:
             sha256 = hashlib.sha256(contents(path, MAX_BYTES)).hexdigest()
             if is_table:
-                (x, pressure, *rest), columns = _read_curve(path, source)
-                shear = rest[0] if rest else None
+                curves, known["columns"] = _read_curve(path, source)
             else:
-                x, pressure, shear, stress = read_fields(path, source, problem, window)
+                curves, known = read_fields(path, source, problem, window)
         except ProfileError as error:
             said = str(error).replace("a profile is a text file", "allowed is a file")
             raise InputError(f"answers.{name}.file: {said}") from None
         except ValueError as error:
             said = one_line(str(error))[:LONGEST]
             raise InputError(f"answers.{name}.file: {path}: {said}") from None
-        of_mesh = not is_table and source.pressure is None
-        answers.append(Answer(path.name, sha256, x, pressure, stress, of_mesh, shear, columns))
+        known["of_mesh"] = not is_table and source.pressure is None
+        x, pressure, *shear = curves
+        known["shear"] = shear[0] if shear else None
+        answers.append(Answer(path.name, sha256, x, pressure, **known))
     return tuple(sorted(answers, key=lambda answer: -answer.spacing))
 
 

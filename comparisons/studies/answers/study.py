@@ -34,7 +34,7 @@ from comparisons.figures.uncertainty import Uncertainty, difference_of_figures, 
 from comparisons.judging.comparison import norms, norms_of, relative_differences
 from comparisons.judging.contact import uncertainties, values_of
 from comparisons.judging.study import SCATTER, Case, Solved
-from comparisons.models.level import Level, StressResult
+from comparisons.models.level import Level
 from comparisons.models.window import Window
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.conditions import conditions, operators_of
@@ -105,27 +105,24 @@ def _errors(name: str, answer: str, rows: list[dict]) -> Series:
     return Series(name, columns_of(rows, uncertainties=sizes), answer)
 
 
-def figures_of_answer(answer: Answer, case: Case) -> dict[str, float]:
-    """The compared quantities of an answer, as `values_of` has those of a model."""
-    length = float(np.ptp(answer.patches, axis=1).sum())
-    values = {"peak_pressure": float(answer.pressure.max()), "contact_length": length}
+def _on_level(answer: Answer, level: Level, friction: float) -> Level:
+    """An answer in place of a model's level, its pressures on the same elements; no stresses of
+    another friction coefficient, and no field of too little of the window."""
     stress = answer.stress
-    if stress is not None and stress.friction == case.friction:
-        values["tau1_max"] = stress.extremes["tau1"].value
-        values["tau1_max_depth"] = stress.depth
-        values["txz_max_abs"] = stress.extremes["txz"].value
-    return values
-
-
-def _on_level(answer: Answer, level: Level, case: Case) -> Level:
-    """An answer's pressures and stresses in place of a level's; no stresses of another friction
-    coefficient, or of too little of the window."""
-    stress, known = None, answer.stress
-    is_of_case = known is not None and known.friction == case.friction
-    if is_of_case and np.isfinite(known.field.tau1).mean() >= COVERED:
-        stress = StressResult(known.friction, known.extremes, {}, known.field)
+    if stress is not None and stress.friction != friction:
+        stress = None
+    if stress is not None and np.isfinite(stress.tau1).mean() < COVERED:
+        stress = replace(stress, field=None)
     solution = replace(level.solution, pressure=answer.on(level.grid.x))
-    return replace(level, solution=solution, stress=stress)
+    shown = {"solution": solution, "patches": answer.patches, "stress": stress}
+    return replace(level, mesh=None, **shown)
+
+
+def _values(answer: Answer, case: Case) -> dict[str, float]:
+    """Its compared quantities; the largest pressure as given, wherever the elements are."""
+    *_, model = case.runs.values()
+    values = values_of(_on_level(answer, model.finest, case.friction), case.problem)
+    return values | {"peak_pressure": float(answer.pressure.max())}
 
 
 def _figures(
@@ -136,16 +133,15 @@ def _figures(
     by the model and by the answer's own, or else by how finely its points are read."""
     problem, finest, (*_, model) = case.problem, answers[-1], case.runs.values()
     scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
-    values, reference = figures_of_answer(finest, case), values_of(model.finest, problem)
-    both = values.keys() & reference.keys()
-    levels = tuple(_on_level(finest, level, case) for level in model.levels)
+    values, reference = _values(finest, case), values_of(model.finest, problem)
+    levels = tuple(_on_level(finest, level, case.friction) for level in model.levels)
     of_norms = norms_of(replace(model, name=name, levels=levels), model, case, window)
     stated = uncertainties(model, problem) | {f.quantity: f.uncertainty for f in of_norms}
-    by_answer = []
-    for answer in answers:
-        own = figures_of_answer(answer, case)
-        one = relative_differences({n: own[n] for n in both & own.keys()}, reference, problem)
-        by_answer.append(one | norms(_on_level(answer, model.finest, case), model.finest, window))
+    by_answer = [
+        relative_differences(_values(answer, case), reference, problem)
+        | norms(_on_level(answer, model.finest, case.friction), model.finest, window)
+        for answer in answers
+    ]
     for quantity in COMPARED:
         if (difference := by_answer[-1].get(quantity)) is None:
             continue
@@ -180,7 +176,7 @@ def _reading(answer: Answer, name: str) -> float:
         case "peak_pressure":
             return peak_resolution(answer.pressure) * float(answer.pressure.max())
         case "tau1_max_depth":
-            return answer.stress.spacing
+            return answer.depth_spacing
     return 0.0
 
 
@@ -203,7 +199,7 @@ def _validation(
 
     scattered  the half-plane's figures by uncertain inputs; where one is not known, u_input is None
                and counts as none"""
-    measured = figures_of_answer(answer, case)
+    measured = _values(answer, case)
     for name, run in case.runs.items():
         stated = uncertainties(run, case.problem)
         for quantity, value in values_of(run.finest, case.problem).items():

@@ -117,7 +117,7 @@ def holds(answer, hertz, near=0.02):
     assert peak == pytest.approx(hertz.peak_pressure, rel=near)
     assert answer.load == pytest.approx(hertz.load_per_length, rel=max(near, 0.01))
     assert answer.stress.extremes["tau1"].value == pytest.approx(hertz.tau1_max, rel=near)
-    assert answer.stress.depth == pytest.approx(hertz.tau1_max_depth, rel=0.1)
+    assert answer.stress.extremes["tau1"].z == pytest.approx(hertz.tau1_max_depth, rel=0.1)
 
 
 @pytest.mark.parametrize("up", ["y", "-y", "z", "-z"])
