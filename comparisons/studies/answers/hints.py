@@ -7,6 +7,7 @@ come first, since nothing else can be seen before them."""
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -48,51 +49,28 @@ class Hint:
     left: float
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Pressures (n,) [Pa] at x (n,) [m], zero beyond."""
-
-    x: np.ndarray
-    pressure: np.ndarray
-
-    def on(self, x: np.ndarray) -> np.ndarray:
-        return np.interp(x, self.x, self.pressure, left=0.0, right=0.0)
-
-    def off(self, reference: "Curve", shift: float = 0.0) -> float:
-        """Relative L2 norm of the difference to a reference that lies `shift` [m] towards -x."""
-        return relative_l2(self.on(reference.x + shift), reference.pressure)
-
-    def times(self, length: float, pressure: float) -> "Curve":
-        """Stretched along x, mirrored by a negative length."""
-        way = 1 if length > 0.0 else -1
-        return Curve(length * self.x[::way], pressure * self.pressure[::way])
-
-    @property
-    def ends(self) -> np.ndarray:
-        """First and last contact [m]."""
-        return self.x[self.pressure > 0.0][[0, -1]]
-
-
 def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     """What explains the difference of an answer's pressures to a model's, where there is one."""
-    reference = Curve(level.grid.x, level.solution.pressure)
-    curve = Curve(answer.x, np.where(answer.touching, answer.pressure, 0.0))
-    before, named = curve.off(reference), []
+    before, named = _off(answer, level), []
     if before <= DISTINCT:
         return ()
     if -answer.pressure.min() > answer.pressure.max():
-        curve = Curve(answer.x, np.maximum(-answer.pressure, 0.0))
-        named.append(Hint("sign", -1.0, "the other sign of the pressures", curve.off(reference)))
-    units = _units(curve, reference)
-    curve = curve.times(units["length"], units["stress"])
-    now = curve.off(reference)
-    for kind, factor in units.items():
-        power = round(np.log10(factor) / 3.0)
+        answer = _times(answer, 1.0, -1.0)
+        named.append(Hint("sign", -1.0, "the other sign of the pressures", _off(answer, level)))
+    sizes = {
+        "length": np.ptp(_ends(level.grid.x, level.solution.pressure))
+        / max(np.ptp(_ends(answer.x, answer.pressure)), 1e-300),
+        "stress": level.solution.pressure.max() / answer.pressure.max(),
+    }
+    powers = {kind: round(np.log10(size) / 3.0) for kind, size in sizes.items()}
+    answer = _times(answer, *(10.0 ** (3 * power) for power in powers.values()))
+    now = _off(answer, level)
+    for kind, power in powers.items():
         text = f"a factor of 1e{3 * power} in the {kind} unit"
         if power in UNITS[kind]:
             text = f"a {kind} unit of {UNITS[kind][power]} in place of the SI unit"
-        named += [Hint(f"{kind} unit", factor, text, now)] if power else []
-    tried = [*_moved(curve, problem, reference), *_other_problems(curve, problem, level)]
+        named += [Hint(f"{kind} unit", 10.0 ** (3 * power), text, now)] if power else []
+    tried = [*_moved(answer, problem, level), *_other_problems(answer, problem, level)]
     least = min(hint.left for hint in tried)
     best = next(hint for hint in tried if hint.left <= AS_WELL * least + ROUNDING)
     if now > DISTINCT and best.left <= EXPLAINS * now:
@@ -103,48 +81,54 @@ def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     return (Hint("unexplained", before, text, before),) if before > ANOTHER else ()
 
 
-def _units(curve: Curve, reference: Curve) -> dict[str, float]:
-    """Powers of a thousand that bring lengths and pressures next to the reference's."""
-    extents = [max(np.ptp(one.ends), 1e-300) for one in (reference, curve)]
-    peaks = reference.pressure.max(), curve.pressure.max()
-    sizes = {"length": extents, "stress": peaks}
-    return {n: 10.0 ** (3 * round(np.log10(one / own) / 3.0)) for n, (one, own) in sizes.items()}
+def _off(answer: Answer, level: Level, shift: float = 0.0) -> float:
+    """Relative L2 norm of the difference to a level that lies `shift` [m] towards -x."""
+    return relative_l2(answer.on(level.grid.x + shift), level.solution.pressure)
 
 
-def _moved(curve: Curve, problem: Problem, reference: Curve) -> Iterator[Hint]:
+def _times(answer: Answer, length: float, pressure: float) -> Answer:
+    """Stretched along x, mirrored by a negative length."""
+    way = 1 if length > 0.0 else -1
+    return replace(answer, x=length * answer.x[::way], pressure=pressure * answer.pressure[::way])
+
+
+def _ends(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    """First and last contact [m]."""
+    return x[pressure > 0.0][[0, -1]]
+
+
+def _moved(answer: Answer, problem: Problem, level: Level) -> Iterator[Hint]:
     """Other axes, and a factor of two in the pressures."""
-    mirrored = curve.times(-1.0, 1.0)
-    for kind, words, turned in (("", "", curve), ("mirrored ", "mirrored in x, ", mirrored)):
+    mirrored = _times(answer, -1.0, 1.0)
+    for kind, words, turned in (("", "", answer), ("mirrored ", "mirrored in x, ", mirrored)):
         if kind:
-            yield Hint("mirrored", -1.0, "mirrored in x", turned.off(reference))
-        shift = _shift(turned, reference)
+            yield Hint("mirrored", -1.0, "mirrored in x", _off(turned, level))
+        shift = _shift(turned, level)
         text = f"{words}shifted by {shift / problem.hertz.half_width:.3g} a"
-        yield Hint(f"{kind}shift", shift, text, turned.off(reference, shift))
+        yield Hint(f"{kind}shift", shift, text, _off(turned, level, shift))
     for factor, words in ((2.0, "twice"), (0.5, "half")):
-        left = curve.times(1.0, 1.0 / factor).off(reference)
+        left = _off(_times(answer, 1.0, 1.0 / factor), level)
         yield Hint("factor", factor, f"{words} the pressure", left)
-    nearest, farthest = np.sort(np.abs(curve.ends))
+    nearest, farthest = np.sort(np.abs(_ends(answer.x, answer.pressure)))
     if nearest < 0.1 * farthest:  # one side alone
-        x, half = reference.x, curve.on(reference.x)
-        whole = half + np.where(np.abs(x) < 0.5 * (x[1] - x[0]), 0.0, mirrored.on(x))
-        left = relative_l2(whole, reference.pressure)
+        x = level.grid.x
+        beside = np.where(np.abs(x) < 0.5 * level.grid.pitch, 0.0, mirrored.on(x))
+        left = relative_l2(answer.on(x) + beside, level.solution.pressure)
         yield Hint("half model", 0.5, "half of the model alone", left)
 
 
-def _shift(curve: Curve, reference: Curve) -> float:
-    """By how much [m] the curve lies towards +x of the reference."""
-    middle, reach = curve.ends.mean() - reference.ends.mean(), FARTHEST * np.ptp(reference.ends)
+def _shift(answer: Answer, level: Level) -> float:
+    """By how much [m] the answer lies towards +x of a level."""
+    ends = _ends(level.grid.x, level.solution.pressure)
+    middle, reach = _ends(answer.x, answer.pressure).mean() - ends.mean(), FARTHEST * np.ptp(ends)
     tried = np.append(np.linspace(-0.5, 0.5, TRIED) * reach, 0.0) + np.array([[0.0], [middle]])
-
-    def left(shift: float) -> float:
-        return curve.off(reference, shift)
-
+    left = partial(_off, answer, level)
     start, step = min(tried.ravel(), key=left), 1.5 * reach / TRIED
     bounds, options = (start - step, start + step), {"xatol": 1e-3 * step}
     return float(minimize_scalar(left, bounds=bounds, method="bounded", options=options).x)
 
 
-def _other_problems(curve: Curve, problem: Problem, level: Level) -> Iterator[Hint]:
+def _other_problems(answer: Answer, problem: Problem, level: Level) -> Iterator[Hint]:
     """The scene with twice or half its load, or its radius, on the half-plane."""
     load, radius, grid = problem.hertz.load_per_length, problem.scene.roller.radius, level.grid
     operator = operator_of(problem, grid, frozenset())
@@ -154,4 +138,4 @@ def _other_problems(curve: Curve, problem: Problem, level: Level) -> Iterator[Hi
         constraints = problem.constraints(factor * load if kind == "load" else load)
         with suppress(ContactError):  # more than the hardness carries
             solution = pressed_on(changed, grid, operator, constraints)
-            yield Hint(kind, factor, words, curve.off(Curve(grid.x, solution.pressure)))
+            yield Hint(kind, factor, words, _off(answer, replace(level, solution=solution)))
