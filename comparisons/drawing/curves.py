@@ -109,7 +109,10 @@ def over(axes: "Sequence[Axes]", label: str, ends: Sequence[float] | None = None
 
 
 def load_text(problem: Problem) -> str:
-    """Load per length, in the digits of the scene where the scene gives it."""
+    """Load per length, in the digits of the scene where the scene gives it; of a periodic surface
+    the mean pressure."""
+    if problem.scene.periodic:
+        return as_written(problem.scene.load.value, "Pa")
     write = as_written if problem.scene.load.kind == "per_length" else with_unit
     return write(problem.hertz.load_per_length, "N/m")
 

@@ -9,15 +9,15 @@ from math import inf
 from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
-from comparisons.figures.figure import Figure, nearest_to_tolerance
+from comparisons.figures.figure import Figure
 from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.model_error.account import INTERACTION
 from comparisons.judging.model_error.show import flow_taken
 from comparisons.judging.study import MODEL_ERROR, Run
-from comparisons.judging.verdict.next_step import next_of, pasted, worst_of
-from comparisons.judging.verdict.within import Within, name_of, size_of, within_of
+from comparisons.judging.verdict.next_step import next_of, pasted
+from comparisons.judging.verdict.within import Within, deciding, name_of, size_of, within_of
 from comparisons.models.assumptions import WITHIN_LINEAR, laws, without_law
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -72,12 +72,14 @@ def _sentence(run: Run, kind: Kind, within: Within) -> str:
         return _one_model(run)
     if run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return FLOWS
-    said = _sentence_of(run, kind, within)
+    error = deciding(run, kind) if run.model_errors else None
+    said = "nothing is judged" if error is None else _decided(run, kind, within, error)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
     asked = f", {WITHIN_LINEAR}" if run.problem.scene.linear else ""
     idle = kind == "holds" and FLOW in run.data(MODEL_ERROR).selection.found
     clauses = f"{law}{asked}{f'; {yielding.IDLE}' if idle else ''}"
-    return f"{said[0].upper()}{said[1:]}{clauses}.{_remarks(run)}"
+    remarks = [study.remark(run, error) for study in run.studies] if error else []
+    return " ".join(filter(None, (f"{said[0].upper()}{said[1:]}{clauses}.", *remarks)))
 
 
 def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:
@@ -86,23 +88,20 @@ def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:
     return [(kind.upper(), sentence) for kind, sentence in ((said.kind, said.sentence), *others)]
 
 
-def _sentence_of(run: Run, kind: Kind, within: Within) -> str:
-    """What decides on the tolerances, without its full stop."""
-    errors = run.model_errors
-    if not errors:
-        return "nothing is judged"
+def _decided(run: Run, kind: Kind, within: Within, error: Figure) -> str:
+    """What an error decides on the tolerances, without a full stop."""
     if kind == "inconclusive":
-        return _inconclusive(run, within)
+        return _inconclusive(run, within, error)
+    errors = run.model_errors
     if kind == "holds":
-        nearest = _other(run, within, nearest_to_tolerance(errors), "; nearest to its tolerance: ")
+        nearest = _other(run, within, error, "; nearest to its tolerance: ")
         return f"every judged error is within {_tolerance(errors)}{nearest}"
-    outside = [error for error in errors if error.verdict == "fails"]
-    worst = nearest_to_tolerance(outside)
-    taken = flow_taken([e for e in errors if e.friction == worst.friction])
-    farthest = _other(run, within, worst, "; the farthest: " if outside[1:] else ": ")
-    count = f"{len(outside)} of {len(errors)} judged errors {'are' if outside[1:] else 'is'}"
-    said = f"{count} outside {_tolerance(errors)}{farthest}"
-    return f"{taken}; {said}" if taken else f"{said}{_dominant(worst)}"
+    count = sum(one.verdict == "fails" for one in errors)
+    are, which = ("are", "; the farthest: ") if count > 1 else ("is", ": ")
+    said = f"{count} of {len(errors)} judged errors {are} outside {_tolerance(errors)}"
+    said += _other(run, within, error, which)
+    taken = flow_taken(errors.of(friction=error.friction))
+    return f"{taken}; {said}" if taken else f"{said}{_dominant(error)}"
 
 
 def _tolerance(errors: Sequence[Figure]) -> str:
@@ -131,19 +130,10 @@ def _law_leaned_on(run: Run) -> str:
     return ", whatever the law of elasticity" if solved else ""
 
 
-def _remarks(run: Run) -> str:
-    """What studies say of the figure that decides."""
-    if not run.model_errors:
-        return ""
-    error = nearest_to_tolerance(run.model_errors)
-    return "".join(f" {said}" for study in run.studies if (said := study.remark(run, error)))
-
-
-def _inconclusive(run: Run, within: Within) -> str:
+def _inconclusive(run: Run, within: Within, worst: Figure) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
     if run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES) and not within.figure:
         return "nothing said of an elastic body will hold"
-    worst = worst_of(run)
     error = _other(run, within, worst, "the error of ") or "this error"
     largest, tolerance = max(worst.unknown, key=worst.unknown.get, default=""), _tolerance([worst])
     if worst.not_modelled == inf:
@@ -172,10 +162,9 @@ def _dominant(error: Figure) -> str:
 
 
 def _one_model(run: Run) -> str:
-    [name] = run.runs
-    known = run.figures.of(study=contact.NAME, source=name)
-    peak, p0 = known.one(quantity="peak_pressure").value, run.problem.hertz.peak_pressure
-    length = known.one(quantity="contact_length").value
+    wanted = ("peak_pressure", "contact_length")
+    peak, length = (run.figures.one(study=contact.NAME, quantity=name).value for name in wanted)
+    p0 = run.problem.hertz.peak_pressure
     smooth = "the mean" if run.problem.scene.periodic else "Hertz"
     others = any(study.verdicts(run) for study in run.studies)
     compared = "only answers from outside were" if others else "nothing was"

@@ -13,7 +13,7 @@ from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import percent_as_written, with_unit
 from comparisons.common.progress import machine_memory
-from comparisons.figures.figure import Figure, nearest_to_tolerance
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS, contained
@@ -23,12 +23,11 @@ from comparisons.judging.effects.selection import FLOW, why_not
 from comparisons.judging.model_error.account import INPUTS
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.whole import figures_of_whole
-from comparisons.judging.verdict.within import rounded_up
+from comparisons.judging.verdict.within import deciding, rounded_up
 from comparisons.models.forecast import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import TABOR
 from comparisons.scenes.materials import (
-    Solid,
     kinds_like,
     kinds_of,
     measured_solids,
@@ -122,11 +121,6 @@ def _without(words: Sequence[str], option: str, name: str = "") -> list[str]:
     return kept
 
 
-def worst_of(run: Run) -> Figure:
-    """The error that is farthest from a verdict that holds."""
-    return nearest_to_tolerance([error for error in run.model_errors if error.verdict != "holds"])
-
-
 def _candidates(run: Run, kind: str) -> Iterator[Offer]:
     """What may be done, the best first. What changes nothing can always be said."""
     if kind == "not converged":
@@ -141,7 +135,7 @@ def _candidates(run: Run, kind: str) -> Iterator[Offer]:
     elif not run.model_errors:
         yield Offer("a tolerance to judge by, such as tolerance.peak_pressure = 0.02")
     elif kind == "inconclusive":
-        yield from _of_open(run, worst_of(run))
+        yield from _of_open(run, deciding(run, kind))
     else:
         if unknown := yielding.may_flow(run, at_any=kind == "fails"):
             stress, said, is_known = _typical_stress(run)
@@ -242,18 +236,26 @@ def _in_mpa(stress: float) -> str:
 
 
 def _of_law(run: Run) -> Iterator[Offer]:
-    """The solids that bodies without a name may be, with their own moduli, to which measured
-    constants belong."""
-    bodies = _bodies_of_open_law(run)
-    like = {name: _like(part) for name, part in bodies.items() if part.solid is None}
-    if like and all(like.values()):
-        fields = " and ".join(f'{name}.material = "{solid.name}"' for name, solid in like.items())
-        settings = [
-            f"{name}.{text}"
-            for name, solid in like.items()
-            for text in (f"material={solid.name}", *_moduli(bodies[name], solid))
-        ]
-        said = f"{fields}, or what it is (crosscheck materials), with its moduli"
+    """The measured solids that bodies without a name may be of the class of, with their own moduli,
+    to which measured constants belong."""
+    like, settings = {}, []
+    for name, part in _bodies_of_open_law(run).items():
+        if part.solid is None:
+            kinds = kinds_like(part.youngs_modulus, part.poissons_ratio)
+            solid = next((one for one in measured_solids(*kinds) if one.kind in kinds), None)
+            if solid is None:
+                return
+            like[name] = f'{name}.material = "{solid.name}"'
+            settings.append(f"{name}.material={solid.name}")
+            settings += [
+                f"{name}.{field}={solid.values[field].value!r}"
+                for field in ("youngs_modulus", "poissons_ratio")
+                if not solid.agrees(field, getattr(part, field))
+            ]
+    if like:
+        said = (
+            f"{' and '.join(like.values())}, or what it is (crosscheck materials), with its moduli"
+        )
         yield Offer(said, tuple(settings), or_linear=True)
 
 
@@ -262,18 +264,6 @@ def _bodies_of_open_law(run: Run) -> dict[str, ElasticSection]:
     laws = run.data(MODEL_ERROR).selection.laws
     names = dict.fromkeys(name for law in laws if not law.is_scatter for name in law.bodies)
     return {name: getattr(run.problem.scene, name) for name in names}
-
-
-def _moduli(section: ElasticSection, solid: Solid) -> list[str]:
-    """Those of a solid in place of others that a section has, each FIELD=VALUE."""
-    values = {name: getattr(section, name) for name in ("youngs_modulus", "poissons_ratio")}
-    return [f"{n}={solid.values[n].value!r}" for n, v in values.items() if not solid.agrees(n, v)]
-
-
-def _like(section: ElasticSection) -> Solid | None:
-    """A measured solid of the class that a body may be of."""
-    kinds = kinds_like(section.youngs_modulus, section.poissons_ratio)
-    return next((solid for solid in measured_solids(*kinds) if solid.kind in kinds), None)
 
 
 def _unknown_law(run: Run) -> str:

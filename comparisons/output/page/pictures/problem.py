@@ -10,7 +10,7 @@ from comparisons.drawing.curves import load_text
 from comparisons.judging.study import Run
 from comparisons.models.assumptions import yielding_text
 from comparisons.models.problem import Problem
-from comparisons.output.page.tables.problem import coating_text, elastic_text
+from comparisons.output.page.tables.problem import coating_text, elastic_text, size_text
 from comparisons.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ def problem_picture(run: Run) -> style.Picture:
     sliding = f", sliding with friction {frictions}" if any(scene.load.friction) else ""
     return style.picture(
         drawn,
-        f"A {scene.smooth_body}{radius} pressed on {body} by {_load(run.problem)}{sliding}; "
+        f"A {scene.smooth_body}{radius} pressed on {body} by {load_text(run.problem)}{sliding}; "
         f"{'; '.join(_body_in_words(scene))}.",
         f"The problem. Above: to scale. Below: {scene.smooth_body} and {body} at first touch, "
         f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
@@ -91,7 +91,7 @@ def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], ro
     roomy  words of the body stand in it, where it is large; else under it"""
     scene, (view, half, below) = problem.scene, sizes
     note = {"va": "center", "linespacing": 1.35}
-    load = f"{'p₀' if scene.periodic else 'P'} = {_load(problem)}"
+    load = f"{'p₀' if scene.periodic else 'P'} = {load_text(problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     material = "rigid" if scene.roller.rigid else elastic_text(scene.roller.material)
     radius = "" if scene.periodic else f"\nR = {as_written(scene.roller.radius, 'm')}"
@@ -163,29 +163,13 @@ def _close_up(axes: "Axes", problem: Problem) -> float:
     return (tall / (top - bottom)) / (wide / (high - low))
 
 
-def _load(problem: Problem) -> str:
-    if problem.scene.periodic:
-        return as_written(problem.scene.load.value, "Pa")
-    return load_text(problem)
-
-
 def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) -> None:
     axes.annotate("", tip, tail, arrowprops={**ARROW, "color": FORCE, "linewidth": 1.8})
 
 
 def _body_in_words(scene: Scene) -> list[str]:
     """Its size and support, and what the finite elements' body has besides."""
-    size = []
-    if scene.body.thickness is not None:
-        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.body.base]
-        size.append(f"{as_written(scene.body.thickness, 'm')} thick, {base} a rigid base")
-    elif scene.body.width is None:
-        size.append("unbounded (half-plane)")
-    else:
-        size.append("unbounded in depth")
-    if scene.body.width is not None:
-        size.append(f"{as_written(scene.body.width, 'm')} wide")
-    words = [", ".join(size)]
+    words = [size_text(scene.body)]
     if scene.coating is not None:
         words.append(f"coating {coating_text(scene.coating)}")
     if scene.body.yield_stress is not None:

@@ -20,7 +20,7 @@ from comparisons.judging.study import Run
 from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.sections import CoatingSection, ElasticSection
+from comparisons.scenes.sections import BodySection, CoatingSection, ElasticSection
 from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies import problem as asked
 
@@ -80,26 +80,27 @@ def surface_text(surface: SceneSurface) -> str:
 
 
 def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
-    rows, body = [("smooth body", "flat")], scene.body
+    rows = [("smooth body", "flat")]
     if not scene.periodic:
         rows = [("radius of relative curvature R", as_written(scene.roller.radius, "m"))]
-    if body.thickness is None:
-        rows.append(("body, thickness", "unbounded"))
-    else:
-        base = {"bonded": "bonded to", "frictionless": "free to slide on"}[body.base]
-        rows.append(
-            ("body, thickness t", f"{as_written(body.thickness, 'm')}, {base} a rigid base")
-        )
-    width = "unbounded" if body.width is None else as_written(body.width, "m")
+    rows.append(("body, size", size_text(scene.body)))
     if scene.periodic:
-        width = f"unbounded, the surface repeats after {with_unit(surface.profile.length, 'm')}"
-    rows.append(("body, width w", width))
+        rows.append(("surface repeats after", with_unit(surface.profile.length, "m")))
     if surface.info is None:
         return [*rows, ("surface", "smooth")]
     rows += _profile(surface.info)
     if not scene.periodic:
         rows.append(("place of the roller on the trace", as_written(surface.position, "m")))
     return rows
+
+
+def size_text(body: BodySection) -> str:
+    """A body's thickness, support and width in one phrase."""
+    width = "" if body.width is None else f", {as_written(body.width, 'm')} wide"
+    if body.thickness is None:
+        return f"unbounded in depth{width}" if width else "unbounded (half-plane)"
+    base = {"bonded": "bonded to", "frictionless": "free to slide on"}[body.base]
+    return f"{as_written(body.thickness, 'm')} thick, {base} a rigid base{width}"
 
 
 def _profile(info: ProfileInfo) -> Rows:
