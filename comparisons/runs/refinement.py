@@ -11,6 +11,7 @@ import numpy as np
 
 from comparisons.common.progress import Stages, machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
+from comparisons.figures.quantity import label
 from comparisons.judging.comparison import discretisations
 from comparisons.judging.model_error.solutions import LEAST_LEVELS
 from comparisons.judging.study import Solved
@@ -82,7 +83,7 @@ def refined(
 
 
 def _not_resolved(names: Iterable[str], why: str) -> str:
-    open_now = ", ".join(names) or "judged quantities"
+    open_now = ", ".join(map(label, names)) or "judged quantities"
     return f"{open_now} not resolved to a third of the tolerance: {why}"
 
 

@@ -33,4 +33,12 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     return Findings(tuple(figures))
 
 
-STUDY = Study(NAME, QUANTITIES, solve)
+STUDY = Study(
+    name=NAME,
+    quantities=QUANTITIES,
+    solve=solve,
+    title="Checks",
+    note="How far the solution on the finest level is from the contact conditions, evaluated again "
+    "with each model's operator; relative, zero when exact.",
+    lines=lambda run: [],
+)

@@ -200,13 +200,11 @@ def _stresses(run: Run) -> Iterator[Block]:
 def _after(run: Run) -> Iterator[Block]:
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
     far = NOTES["far_boundary"] if run.plan.domain_check else ""
-    why = verification.refinement_text(run)
-    said = NOTES["levels"].format(far=far, norms=norms, refinement=why)
+    said = NOTES["levels"].format(far=far, norms=norms, refinement=run.solved.refinement)
     note = Note(said + _of_layered(run, "layered_levels"))
     items = Pictures(("convergence",)), verification.levels_tables, note, Heading("Words")
     yield Block("convergence", (*items, Names(verification.WORDS)), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
-    yield Block("checks", (verification.check_table, Note(NOTES["checks"])), "Checks")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
     yield Block("record", (_record,), "Record")

@@ -2,14 +2,11 @@
 
 In: a run, its figures with their levels. Out: rows of text."""
 
-import re
 import shlex
 import tomllib
-from collections.abc import Sequence
-from operator import attrgetter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import (
     integer,
@@ -24,7 +21,7 @@ from comparisons.common.numbers import (
 from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import Names, TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
-from comparisons.figures.figure import Figure, grouped
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import (
     COMPARED,
     HYPHENATED,
@@ -37,11 +34,8 @@ from comparisons.figures.uncertainty import COVERAGE
 from comparisons.judging import comparison, contact
 from comparisons.judging.study import Run
 from comparisons.models.level import ModelRun
-from comparisons.studies import checks
 
-# Packages that a person who signs wants to know of.
 TO_SIGN = ("name, place, date", "signature")  # by hand
-SIGNED = ("crosscheck", "python", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh")
 PARTS = {
     "discretisation": "discretisation",
     "iteration": "iteration",
@@ -130,44 +124,23 @@ def row_name(run: Run, name: str, friction: float) -> str:
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
 
 
-def check_table(run: Run) -> TextTable:
-    """The contact conditions on the finest level, evaluated once more after the solution."""
-    known, rows = run.figures.of(study=checks.NAME), []
-    for same in grouped(known, attrgetter("quantity")):
-        texts = (significant(figure.value, 2) for figure in same)
-        rows.append((checks.QUANTITIES[same[0].quantity].label, *texts))
-    models = run.runs.values()
-    converged = [all(level.converged for level in model.levels) for model in models]
-    below = f"all below {significant(KKT_TOLERANCE, 1)} on every level"
-    rows.append((below, *("yes" if met else "no" for met in converged)))
-    return TextTable("", ("", *(LABELS[name] for name in run.runs)), tuple(rows))
-
-
 def signed(run: Run) -> Names:
     """What a person signs who has read the report: the question, how sure, by what and when."""
-    scene, made, errors = run.problem.scene, run.record.get("made", {}), run.model_errors
+    scene, errors, made = run.problem.scene, run.model_errors, run.record.get("made", {})
     judged = dict.fromkeys(
         f"{label(e.quantity)} within {percent_as_written(e.tolerance)}" for e in errors
     )
-    question = (
-        "May the half-plane's figures stand for those of a model with every effect that matters?"
-    )
-    if not errors:
-        question = "What are the figures of this contact? Nothing is judged against a tolerance."
-    solved = {n: v for n, v in run.record["versions"].items() if n in SIGNED and v}
-    by = ", ".join(f"{name} {value}" for name, value in solved.items())
+    question = "What are the figures of this contact? Nothing is judged against a tolerance."
+    if errors:
+        question = "May the half-plane's figures stand for those of a model with every effect that "
+        question += f"matters, {', '.join(judged)}, at friction {listed(scene.load.friction)}?"
     rows = [
         ("scene", f"{scene.title} ({one_line(scene.source)})"),
         ("question", question),
-        (
-            "judged by",
-            f"{', '.join(judged)}; friction {listed(scene.load.friction)}" if judged else "",
-        ),
         ("uncertainty", f"every stated one covers {percent_as_written(COVERAGE)}"),
-        ("solved by", ", ".join(filter(None, (by, f"revision {made.get('revision')}")))),
-        ("made", ", ".join(made[name] for name in ("date", "host") if made.get(name))),
+        ("solved by", _listed(run.record["versions"])),
+        ("made", ", ".join(filter(None, made.values()))),
     ]
-    rows = [row for row in rows if row[1]]
     return Names([*rows, *((name, "") for name in TO_SIGN)])
 
 
@@ -175,8 +148,7 @@ def record_rows(run: Run) -> list[tuple[str, str]]:
     """Date, host and revision, versions, machine and hashes of the run."""
     record = run.record
     rows = [(name, value) for name, value in record.get("made", {}).items() if value]
-    for part in ("versions", "machine"):
-        rows.append((part, ", ".join(f"{n} {value}" for n, value in record[part].items() if value)))
+    rows += [(part, _listed(record[part])) for part in ("versions", "machine")]
     if record.get("seed") is not None:
         rows.append(("seed", str(record["seed"])))
     if record.get("profile"):
@@ -189,12 +161,8 @@ def record_rows(run: Run) -> list[tuple[str, str]]:
     return rows
 
 
-def refinement_text(run: Run) -> str:
-    """Why refinement ended, with quantities in words."""
-    text = run.solved.refinement
-    for name in sorted(QUANTITIES, key=len, reverse=True):
-        text = re.sub(rf"\b{name}\b", label(name), text)
-    return text
+def _listed(known: Mapping[str, object]) -> str:
+    return ", ".join(f"{name} {value}" for name, value in known.items() if value)
 
 
 def commands(run: Run) -> list[tuple[str, str]]:
