@@ -6,7 +6,7 @@ import numpy as np
 
 from comparisons.common.numbers import scale_of, significant
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
+from comparisons.drawing.blocks import Block, Names, Note, Pictures
 from comparisons.drawing.curves import legend_above, names_above, over, panels
 from comparisons.drawing.tables import series_table, stated_text
 from comparisons.figures.figure import Findings, Series
@@ -38,21 +38,26 @@ load. Even: as many ridges as patches, each under the same share of the load, by
 ON_PENETRATION = """Relative penetration h/R = a²/R² by the peak pressure q₀ of a patch: book,
 1.78 (q₀/E)² (Seireg 1998); exact, Hertz's 2.043 (q₀/E)² of a sphere for first flow, which is by
 stress, and 3.312 (q₀/E)² of a ridge for cutting, which is by the slope a/R at its edges. Elastic
-below {elastic}, cutting above {cutting}. Where finite elements flow, the second number of a cell
-counts the patches above a plastic strain."""
+below {elastic}, cutting above {cutting}. Where finite elements flow, in brackets those above a
+plastic strain of {flows:g}."""
 
 
 def blocks(run: Run) -> list[Block]:
     section, findings = run.problem.scene.statistics, run.findings[NAME]
     limits = {"elastic": "0.01" if section.metal == "ferrous" else "0.0001"}
     limits["cutting"] = "0.3" if section.lubricated else "0.1"
+    patches = [
+        (f"patches by h/R, {how}, {LABELS[one.source]}", ", ".join(_counted(one, how)))
+        for one in _patches(findings)
+        for how in ("book", "exact")
+    ]
     items = (
         Pictures(("statistics",)),
         series_table("Summits, by moments and by peaks", findings.table("summits")),
         series_table("Theory and solved", findings.table("loads")),
-        _patch_table(findings),
+        Names(patches),
         Note(ON_THEORY),
-        Note(ON_PENETRATION.format(**limits)),
+        Note(ON_PENETRATION.format(**limits, flows=FLOWS)),
     )
     return [Block("statistics", items, "Statistics of rough contact")]
 
@@ -75,29 +80,14 @@ def _patches(findings: Findings) -> list[Series]:
     return [series for series in findings.series if series.name == "patches"]
 
 
-def _counted(patches: Series) -> list[str]:
-    """Numbers of patches of each kind."""
-    kinds = patches.columns["kinds.exact"].values
-    return [f"{kinds.count(kind)} {kind}" for kind in KINDS]
-
-
-def _patch_table(findings: Findings) -> TextTable:
-    """How many patches are of a kind, by the book's coefficient and the exact one, and how many of
-    them flow."""
-    title, head = "Patches of contact by relative penetration", [""]
-    cells = {kind: [kind] for kind in KINDS}
-    for patches in _patches(findings):
-        strain = patches.columns.get(STRAIN)
-        if strain is not None:
-            title += "; after a semicolon, how many of them flow"
-        for how in ("book", "exact"):
-            head.append(f"{LABELS[patches.source]}, {how}")
-            kinds = np.array(patches.columns[f"kinds.{how}"].values)
-            for kind, row in cells.items():
-                row.append(f"{np.sum(kinds == kind)}")
-                if strain is not None:
-                    row[-1] += f"; {np.sum(strain.numbers[kinds == kind] > FLOWS)}"
-    return TextTable(title, tuple(head), tuple(map(tuple, cells.values())))
+def _counted(patches: Series, how: str = "exact") -> list[str]:
+    """Numbers of patches of each kind and, where the model flows, of those that do."""
+    kinds, strain = np.array(patches.columns[f"kinds.{how}"].values), patches.columns.get(STRAIN)
+    counts = [f"{np.sum(kinds == kind)} {kind}" for kind in KINDS]
+    if strain is None:
+        return counts
+    flow = [np.sum(strain.numbers[kinds == kind] > FLOWS) for kind in KINDS]
+    return [f"{count} ({some} flow)" for count, some in zip(counts, flow, strict=True)]
 
 
 def statistics_pictures(run: Run) -> list[style.Picture]:
@@ -117,10 +107,8 @@ def _over_load(run: Run) -> style.Picture:
             of_theory = {"ridges": "persson.ridges", "even": "even"} if panel is axes[0] else {}
             column = columns.get(of_theory.get(name, f"figures.{name}.{figure}"))
             if column is not None:
-                panel.plot(load, column.numbers / scale, markersize=4.5, **look)
-        random = columns[f"figures.random.{figure}"]
-        look = {"color": LOOKS["random"]["color"], "linestyle": "none", "capsize": 2.0}
-        panel.errorbar(load, random.numbers / scale, random.sizes / scale, **look)
+                bars = column.sizes / scale if column.uncertainty else None
+                panel.errorbar(load, column.numbers / scale, bars, markersize=4.5, **look)
         panel.set(xscale="log", yscale="log")
     axes[0].set_ylabel(f"mean real pressure [{unit.name}]")
     legend_above(axes[0], abreast)
