@@ -25,8 +25,8 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.contact import values_of
 from comparisons.judging.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
+from comparisons.judging.rule import values_of
 from comparisons.judging.study import Run
 from comparisons.models.posing import problem_of
 from comparisons.output.terminal import SHORT

@@ -37,7 +37,7 @@ from operator import add
 import numpy as np
 
 from analytic.contact.problem import ContactSolution
-from comparisons.figures.convergence import TWO_GRIDS, Convergence
+from comparisons.figures.convergence import TWO_GRIDS, Convergence, grid_convergence
 
 COVERAGE = 0.95  # of true errors by stated uncertainties: what `verify` demands and measures
 DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
@@ -72,6 +72,29 @@ def numerical(
     """By the causes that solutions have; `increments` of the load, where a body flows."""
     parts = {"iteration": iteration, "discretisation": discretisation, "domain": domain}
     return Uncertainty(parts | {"increments": increments}, convergence)
+
+
+def by_levels(
+    values: Sequence[float],
+    order: float,
+    scale: float = 1.0,
+    resolution: float = 0.0,
+    iteration: float = 0.0,
+    repeated: tuple[float, float] = (0.0, 0.0),
+    least: float = 0.0,
+) -> Uncertainty:
+    """Of a figure by its values on the levels, coarse to fine, over the scale.
+
+    order       formal order of its convergence
+    scale       what the uncertainty is over, in the figure's unit
+    resolution  how finely it is read, in its unit
+    iteration   by what is left of the contact conditions, over the scale
+    repeated    by the far boundary and by the increments of flow, in its unit
+    least       of the discretisation, over the scale"""
+    known = grid_convergence(values, order, resolution)
+    domain, increments = (size / scale for size in repeated)
+    left = max(known.uncertainty / scale, least)
+    return numerical(iteration, left, domain, increments, known)
 
 
 def iteration(*solutions: ContactSolution) -> float:

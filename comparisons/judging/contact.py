@@ -3,28 +3,22 @@
 In: solved levels of each model. Out: figures of the finest one with their uncertainties, patches,
 and what the levels took."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from comparisons.common.numbers import Scale, plain
 from comparisons.drawing import style
 from comparisons.drawing.curves import distinct, hertz_text, joint_label
-from comparisons.figures.convergence import LOWEST_ORDER, grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.quantity import WHOLE, Quantity
-from comparisons.figures.uncertainty import (
-    Uncertainty,
-    far_boundary,
-    iteration,
-    length_resolution,
-    numerical,
-    of_increments,
-)
+from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging.rule import CONTACT as NAME
+from comparisons.judging.rule import EXTREMES, judged
 from comparisons.judging.study import SCATTER, Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -33,7 +27,6 @@ from comparisons.models.smooth import closed_form
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-NAME = "contact"
 QUANTITIES = COMPARED | {
     "contact_ratio": Quantity("contact length over Hertz 2a"),
     "von_mises_max": Quantity("largest von Mises stress", "Pa"),
@@ -50,9 +43,6 @@ AS_UNCERTAIN = {"von_mises_max": "tau1_max"}
 AS_UNCERTAIN |= dict.fromkeys(("contact_ratio", "contact_ratio_extent"), "contact_length")
 UNITS = {"pitch": "m", "seconds": "s", "expected_seconds": "s"}  # of what a level took
 UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
-UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
-AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
-EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
@@ -70,20 +60,6 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     return Findings(tuple(figures), tuple(series), tuple(statements))
 
 
-def values_of(level: Level, problem: Problem) -> dict[str, float]:
-    """The compared quantities that one model has by itself, SI."""
-    values = {
-        "peak_pressure": float(level.solution.pressure.max()),
-        "contact_length": level.contact_length,
-    }
-    if (stress := level.stress) is not None:
-        tau1 = stress.extremes["tau1"]
-        values["tau1_max"] = tau1.value
-        values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
-        values["txz_max_abs"] = abs(stress.extremes["txz"].value)
-    return values
-
-
 def pair_of(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
     """What a difference is of: the figure of its source, by its study or else this one, and of its
     reference; None of a norm."""
@@ -91,72 +67,6 @@ def pair_of(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]
     own = of(study=difference.study, source=difference.source)
     own = own or of(study=NAME, source=difference.source)
     return own, of(study=NAME, source=difference.against)
-
-
-def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
-    """Height [m] of the level's boundary above places x [m], from which depths count."""
-    if level.mesh is None or not problem.rough_boundary:
-        return np.zeros(np.shape(x))
-    return problem.surface.profile.spline()(x)
-
-
-def uncertainties(run: ModelRun, problem: Problem) -> dict[str, Uncertainty]:
-    """Of every compared quantity that the model has by itself."""
-    history = [values_of(level, problem) for level in run.levels]
-    repeated = by_repetition(run, lambda level: values_of(level, problem))
-    stated = {}
-    for name, value in history[-1].items():
-        values = [of_level[name] for of_level in history]
-        resolution = 0.0
-        if name == "contact_length":
-            resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
-        order = formal_order(name, run.levels, problem)
-        convergence = grid_convergence(values, order, resolution)
-        scale = abs(value) or COMPARED[name].scale(problem.hertz)
-        domain, increments = (size / scale for size in repeated[name])
-        left = max(convergence.uncertainty / scale, left_by_crest(name, run.finest))
-        parts = iteration(run.finest.solution), left, domain, increments
-        stated[name] = numerical(*parts, convergence)
-    return stated
-
-
-def left_by_crest(name: str, level: Level) -> float:
-    """Bound of a level's error by crests that it does not resolve, relative: of the peak pressure,
-    and of a largest shear so near to the surface that it belongs to a crest."""
-    key = EXTREMES.get(name)
-    near = key and level.stress.extremes[key].z <= UNDER_CREST * level.grid.pitch
-    return level.unresolved_crest if near or name == "peak_pressure" else 0.0
-
-
-def formal_order(name: str, levels: Sequence[Level], problem: Problem) -> float:
-    """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
-    largest stress to the surface, there it stands at an end of contact, next to which stresses go
-    with the square root of the distance: half an order, whatever the elements."""
-    key = EXTREMES.get(name)
-    if key is not None:
-        depths = (level.stress.extremes[key].z for level in levels)
-        if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
-            return LOWEST_ORDER
-    order, elements = COMPARED[name].formal_order, problem.scene.finite_element
-    meshed = any(level.mesh is not None for level in levels)
-    return min(order, elements.most_order) if meshed else order
-
-
-def by_repetition(
-    run: ModelRun, read: Callable[[Level], Mapping[str, float]]
-) -> dict[str, tuple[float, float]]:
-    """Uncertainties by the far boundary and by the increments of flow of what is read off a level,
-    in its units: by the coarsest level and what it was repeated with."""
-    first, check = read(run.levels[0]), run.far_boundary_check
-    moved = first if check is None else read(check)
-    increments = [*map(read, run.longer_increments), first]
-    return {
-        name: (
-            far_boundary(moved.get(name, value), value),
-            of_increments([figures.get(name, value) for figures in increments]),
-        )
-        for name, value in first.items()
-    }
 
 
 def no_approach(problem: Problem, model: str) -> str | None:
@@ -174,8 +84,7 @@ def _of(case: Case, run: ModelRun) -> Iterator[Figure]:
     """The figures of one model."""
     problem, level = case.problem, run.finest
     half_width, peak, stress = problem.hertz.half_width, peak_position(level), level.stress
-    levels = [values_of(level, problem) for level in run.levels]
-    stated = uncertainties(run, problem)
+    figures = judged(run, problem)
     # what is not compared [SI], and the places [m] of largest values
     values = {
         "contact_ratio": level.contact_length / (2.0 * half_width),
@@ -190,32 +99,23 @@ def _of(case: Case, run: ModelRun) -> Iterator[Figure]:
         values["von_mises_max"] = abs(stress.extremes["von_mises"].value)
         for name, key in EXTREMES.items():
             places[name] = (stress.extremes[key].x, stress.extremes[key].z)
+    for name, figure in figures.items():
+        hardness = problem.scene.body.hardness
+        capped = name == "peak_pressure" and hardness and figure.value >= AT_HARDNESS * hardness
+        yield replace(figure, place=places.get(name), notes=("capped",) if capped else ())
     # what no sequence of levels is known of: a load that finite elements find, an approach
-    worst = Uncertainty(max(stated.values(), key=lambda u: u.total).parts)
+    worst = max(figures.values(), key=lambda figure: figure.numerical)
     exact = problem.scene.load.kind != "approach"
-    for name, value in (levels[-1] | values).items():
-        scale, uncertainty = abs(value) or QUANTITIES[name].scale(problem.hertz), stated.get(name)
-        if name in AS_UNCERTAIN:
-            uncertainty = Uncertainty(stated[AS_UNCERTAIN[name]].parts)
-        elif name == "peak_position":
+    for name, value in values.items():
+        scale = abs(value) or QUANTITIES[name].scale(problem.hertz)
+        uncertainty = Uncertainty(figures.get(AS_UNCERTAIN.get(name), worst).uncertainty.parts)
+        if name == "peak_position":
             scale = half_width
             uncertainty = Uncertainty({"discretisation": level.grid.pitch / half_width})
-        elif uncertainty is None:
-            uncertainty = Uncertainty() if name == "load_per_length" and exact else worst
-        hardness = problem.scene.body.hardness
-        capped = name == "peak_pressure" and hardness and value >= AT_HARDNESS * hardness
-        yield Figure(
-            study=NAME,
-            quantity=name,
-            source=run.name,
-            value=value,
-            at=case.at,
-            scale=scale,
-            uncertainty=uncertainty,
-            place=places.get(name),
-            levels=tuple(values[name] for values in levels) if name in levels[-1] else (),
-            notes=("capped",) if capped else (),
-        )
+        elif name == "load_per_length" and exact:
+            uncertainty = Uncertainty()
+        stated = scale, uncertainty
+        yield Figure(NAME, name, run.name, value, case.at, None, *stated, place=places.get(name))
 
 
 def _series(solved: Solved, name: str) -> Iterator[Series]:
@@ -223,8 +123,8 @@ def _series(solved: Solved, name: str) -> Iterator[Series]:
     run = solved.runs[name]
     level = run.finest
     for (at, finest), case in zip(solved.contacts(name), solved.cases, strict=False):
-        stated = uncertainties(case.runs[name], case.problem)["contact_length"].total
-        edges = (stated * finest.contact_length,) * len(finest.patches)
+        length = judged(case.runs[name], case.problem)["contact_length"]
+        edges = (length.numerical * length.scale,) * len(finest.patches)
         start, stop = (Column(tuple(ends), "m", edges) for ends in finest.patches.T.tolist())
         yield Series("patches", {"start": start, "stop": stop}, name, at)
     took = [

@@ -20,8 +20,7 @@ from comparisons.figures.figure import Figure, Findings, Series, Statement, colu
 from comparisons.figures.quantity import COMPARED, NORMS, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact
-from comparisons.judging.comparison import relative_l2
-from comparisons.judging.contact import values_of
+from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved, Study
 from comparisons.models.analytic import analytic_level
 from comparisons.models.level import Level

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Figure, Findings
-from comparisons.figures.quantity import COMPARED, QUANTITIES
-from comparisons.judging.comparison import differences_of, norms_of
-from comparisons.judging.contact import uncertainties, values_of
+from comparisons.figures.figure import Findings
+from comparisons.figures.quantity import COMPARED
+from comparisons.judging.comparison import differences
 from comparisons.judging.effects.catalogue import contained
-from comparisons.judging.ladder.rungs import OPERATORS, OTHER, operator_runs
+from comparisons.judging.ladder.rungs import operator_runs
+from comparisons.judging.rule import judged
 from comparisons.judging.study import LAYERED, Solved, Study
 from comparisons.models.analytic import why_no_stresses
 from comparisons.models.operators import LAYERS, is_layered
@@ -23,16 +23,9 @@ from comparisons.models.operators import LAYERS, is_layered
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     runs, figures = operator_runs(solved, contained(solved.problem.scene), tasks), []
     for case in solved.cases if runs else ():
-        run, problem, finite_elements = runs[case.friction], case.problem, case.runs[OTHER]
-        stated = uncertainties(run, problem)
-        for name, value in values_of(run.finest, problem).items():
-            at, size = case.at, abs(value) or QUANTITIES[name].scale(problem.hertz)
-            figures.append(
-                Figure(LAYERED, name, OPERATORS, value, at, scale=size, uncertainty=stated[name])
-            )
-        rows = [*differences_of(run, finite_elements, case).values()]
-        rows += norms_of(run, finite_elements, case, solved.window)
-        figures += [replace(row, study=LAYERED, source=OPERATORS) for row in rows]
+        run = runs[case.friction]
+        own = (replace(figure, levels=()) for figure in judged(run, case.problem).values())
+        figures += (replace(f, study=LAYERED) for f in (*own, *differences(case, run, solved)))
     return Findings(tuple(figures))
 
 

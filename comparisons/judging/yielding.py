@@ -21,15 +21,11 @@ from comparisons.common.numbers import percent, plain, significant, with_unit
 from comparisons.figures.figure import Figure, Findings, Statement, figures_of
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.contact import AT_HARDNESS, uncertainties
-from comparisons.judging.effects.estimates import (
-    BOTH_CRITERIA,
-    STIFF,
-    flow_of,
-    typical_shears,
-)
+from comparisons.judging.contact import AT_HARDNESS
+from comparisons.judging.effects.estimates import BOTH_CRITERIA, STIFF, flow_of, typical_shears
 from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.model_error.account import ErrorBudget
+from comparisons.judging.rule import judged
 from comparisons.judging.study import MODEL_ERROR, Case, Run, Solved, Study
 from comparisons.models.problem import TABOR, Problem
 from comparisons.scenes.scene import Scene
@@ -251,14 +247,14 @@ def _check(case: Case, hardness: float | None) -> FlowCheck:
     level, field = run.finest, run.finest.stress
     pressure, weights = level.solution.pressure, level.grid.weights
     peak = float(pressure.max())
-    stated = uncertainties(run, problem)
+    stated = judged(run, problem)
     if field is None:
         tau1, mises = peak * hertz_extremes(UNIT, friction).tau1.value, None
-        uncertainty = stated["peak_pressure"].total
+        uncertainty = stated["peak_pressure"].numerical
         uncertainty += 0.0 if problem.scene.profile is None else FROM_PEAK
     else:
         tau1, mises = (abs(field.extremes[name].value) for name in ("tau1", "von_mises"))
-        uncertainty = stated["tau1_max"].total
+        uncertainty = stated["tau1_max"].numerical
     share = None
     if hardness is not None:
         touching = weights[pressure > 0.0].sum()

@@ -13,11 +13,10 @@ import numpy as np
 from comparisons.common.numbers import percent
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
-from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.uncertainty import iteration, numerical
+from comparisons.figures.uncertainty import by_levels, iteration
 from comparisons.judging import contact
 from comparisons.judging.study import Run, Solved, Study
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
@@ -69,10 +68,8 @@ def _lowering(solved: Solved) -> list[Figure]:
     if run is None or solved.problem.scene.body.thickness is None:
         return []
     values = [float(np.interp(0.0, one.grid.x, one.displacement)) for one in run.levels]
-    refined = grid_convergence(values, LOWERED.formal_order)
-    size = values[-1]
-    left = iteration(run.finest.solution), refined.uncertainty / size
-    stated = numerical(*left, 0.0, 0.0, refined)
+    size, unsolved = values[-1], iteration(run.finest.solution)
+    stated = by_levels(values, LOWERED.formal_order, size, iteration=unsolved)
     at = {"friction": solved.problem.scene.load.friction[0]}
     return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
 

@@ -39,7 +39,7 @@ from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, iteration
-from comparisons.judging.contact import by_repetition
+from comparisons.judging.rule import by_repetition
 from comparisons.judging.study import Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem

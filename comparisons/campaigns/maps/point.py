@@ -13,9 +13,7 @@ from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.progress import Stages
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.comparison import differences_of
-from comparisons.judging.contact import values_of
-from comparisons.judging.study import Case
+from comparisons.judging.rule import judged, values_of
 from comparisons.models.analytic import half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
@@ -47,7 +45,8 @@ def solve_point(point: Point) -> dict:
         for run in runs.values():
             if not run.finest.converged:
                 return failed(f"{run.name}: the contact did not converge")
-        errors = differences_of(*runs.values(), Case(problem.under(friction), runs))
+        both = runs["half_plane"], problem.under(friction), runs["finite_element"]
+        errors = judged(*both)
         if not is_open(errors[point.asked]):
             break
     values = {name: values_of(run.finest, problem) for name, run in runs.items()}

@@ -29,10 +29,9 @@ from comparisons.campaigns.verify.scenes import (
     RESOLUTIONS,
     spread,
 )
-from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution, numerical
+from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, by_levels, length_resolution
 from comparisons.judging import contact
 
 LEVELS = 3
@@ -92,13 +91,11 @@ def operator_figures(case: OperatorContact, elements: float) -> CaseFigures:
         order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
         length = quantity == "contact_length"
         resolution = length_resolution(grid.pitch, case.patches) if length else 0.0
-        convergence = grid_convergence(values, order, resolution)
         scale = abs(values[-1])
-        error = convergence.uncertainty / scale
         figure = Figure(
             *(contact.NAME, quantity, case.model, values[-1]),
             scale=scale,
-            uncertainty=numerical(iteration, error, 0.0, convergence=convergence),
+            uncertainty=by_levels(values, order, scale, resolution, iteration),
             levels=values,
         )
         converged = all(solution.converged for _, solution in levels)

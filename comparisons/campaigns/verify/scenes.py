@@ -35,8 +35,7 @@ from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import numerical
 from comparisons.judging import contact
-from comparisons.judging.comparison import relative_l2
-from comparisons.judging.contact import values_of
+from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.study import MODEL_ERROR, unsolved
 from comparisons.models.analytic import half_plane_level
 from comparisons.models.plan import make_plan

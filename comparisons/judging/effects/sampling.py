@@ -12,9 +12,9 @@ from comparisons.common.numbers import significant, with_unit
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
 from comparisons.figures.figure import SHARED
-from comparisons.judging.comparison import relative_differences
 from comparisons.judging.effects.estimates import Sizes
 from comparisons.judging.model_error.quantities_of_interest import quantities_of
+from comparisons.judging.rule import relative_differences
 from comparisons.judging.study import Solved
 from comparisons.models.analytic import expected_of, half_plane_level
 from comparisons.models.level import Level

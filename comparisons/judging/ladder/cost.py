@@ -29,6 +29,7 @@ from comparisons.figures.figure import Column, Figures, Findings, Series, Statem
 from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
+from comparisons.judging.rule import values_of
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
 from comparisons.models.analytic import (
     analytic_level,
@@ -243,7 +244,7 @@ def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Ref
 def _errors(
     solved: Solved, levels: Mapping[float, Level], known: Mapping[str, Reference]
 ) -> dict[str, float]:
-    found = [contact.values_of(levels[case.friction], case.problem) for case in solved.cases]
+    found = [values_of(levels[case.friction], case.problem) for case in solved.cases]
     errors = {}
     for name, best in known.items():
         if all(name in values for values in found):

@@ -14,12 +14,11 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Tasks, called
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS, WHOLE
-from comparisons.judging.comparison import differences_of
-from comparisons.judging.contact import uncertainties
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.model_error.account import ErrorBudget, figure_of
 from comparisons.judging.model_error.model_error import ModelError, Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
 from comparisons.models.analytic import (
@@ -160,7 +159,7 @@ class Ladder:
     def _errors(self, solutions: Solutions, run: ModelRun) -> list[ModelError]:
         """Errors against the whole of a model that was solved on the half-plane's pressures."""
         case = solutions.case
-        rows = differences_of(run, case.runs[OTHER], case)
+        rows = judged(run, case.problem, case.runs[OTHER])
         runs = {"half_plane": run, OTHER: case.runs[OTHER]}
         solutions = replace(solutions, case=replace(case, runs=runs))
         return [solutions.error(rows[row.quantity]) for row in self._rows(case)]
@@ -179,9 +178,9 @@ class Ladder:
         errors = []
         for solutions in self.budget.solutions:
             exact = hertz_quantities(problem, solutions.case.friction, window)
-            stated = uncertainties(solutions.runs[OTHER], problem)
+            stated = judged(solutions.runs[OTHER], problem)
             errors += [
-                solutions.of_exact(row.quantity, exact, stated[row.quantity].total)
+                solutions.of_exact(row.quantity, exact, stated[row.quantity].numerical)
                 for row in self._rows(solutions.case)
             ]
         seconds = perf_counter() - began
@@ -236,9 +235,9 @@ class Ladder:
         """What is not known of the reference itself."""
         run, errors = self.solved.runs[OTHER], []
         for solutions in self.budget.solutions:
-            stated = uncertainties(solutions.runs[OTHER], solutions.problem)
+            stated = judged(solutions.runs[OTHER], solutions.problem)
             errors += [
-                solutions.of_whole(row.quantity, stated[row.quantity].total)
+                solutions.of_whole(row.quantity, stated[row.quantity].numerical)
                 for row in self._rows(solutions.case)
             ]
         inside = words_of_kind(self.budget.selection.whole)

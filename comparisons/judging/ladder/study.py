@@ -6,14 +6,8 @@ coefficient; what each rung took; which one suffices, and the assumption worth d
 from collections.abc import Mapping, Sequence
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import (
-    Column,
-    Findings,
-    Series,
-    Statement,
-    nearest_to_tolerance,
-)
-from comparisons.figures.quantity import WHOLE
+from comparisons.figures.figure import Column, Findings, Series, Statement, nearest_to_tolerance
+from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.judging import comparison, coupling, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import show
@@ -92,7 +86,7 @@ def _worth_dropping(errors: Findings) -> str | None:
 
 STUDY = Study(
     name=LADDER,
-    quantities=comparison.QUANTITIES,
+    quantities=QUANTITIES,
     solve=solve,
     begin=begin,
     applies=lambda solved: solved.plan.compares and bool(solved.problem.scene.tolerances),

@@ -22,8 +22,6 @@ from comparisons.figures.uncertainty import (
     iteration,
     of_increments,
 )
-from comparisons.judging.comparison import relative_resolution
-from comparisons.judging.contact import formal_order, uncertainties, values_of
 from comparisons.judging.effects.laws import LawSolutions, LawSpread
 from comparisons.judging.model_error.contributions import OF_SIZE, EffectContributions
 from comparisons.judging.model_error.quantities_of_interest import (
@@ -31,6 +29,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
+from comparisons.judging.rule import formal_order, judged, relative_resolution, values_of
 from comparisons.judging.study import Case
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
@@ -242,8 +241,8 @@ class Solutions:
             numerical = max(numerical, self.unsolved + refined.uncertainty)
         lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
         if self.longer is not None:  # the half-plane on its finest level, the whole on another
-            stated = uncertainties(self.runs["half_plane"], self.problem)[name]
-            numerical += stated.total * _scale(half_plane, name, self.problem) / scale
+            stated = judged(self.runs["half_plane"], self.problem)[name]
+            numerical += stated.numerical * _scale(half_plane, name, self.problem) / scale
         uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
         if name in LARGEST:
             uncertainty += self._of_competitors(name, numerical, at) / scale
@@ -267,8 +266,8 @@ class Solutions:
 
         numerical  of the figure, relative"""
         largest, whole = LARGEST[name], self.whole.figures
-        stated = uncertainties(self.runs["finite_element"], self.problem)
-        alone = stated[largest].total  # a depth does not say where it is
+        stated = judged(self.runs["finite_element"], self.problem)
+        alone = stated[largest].numerical  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
         beside = self.missing if self.longer is None else self.wholes
         values, top = whole[largest], whole[largest][at]

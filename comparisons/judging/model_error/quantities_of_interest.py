@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from comparisons.figures.uncertainty import peak_resolution
-from comparisons.judging.contact import boundary_rise
+from comparisons.judging.rule import boundary_rise
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 

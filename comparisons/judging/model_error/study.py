@@ -13,7 +13,6 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging import comparison, coupling
-from comparisons.judging.contact import values_of
 from comparisons.judging.coupling import Coupling
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.estimates import estimates
@@ -25,6 +24,7 @@ from comparisons.judging.model_error.error_budget import (
     mean_pressure,
     selected_effects,
 )
+from comparisons.judging.rule import values_of
 from comparisons.judging.study import Solved, Study
 from comparisons.judging.yielding import flow_assessment, flows_at_such
 from comparisons.models.level import Level

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from analytic.contact.problem import ContactError
-from comparisons.judging.comparison import relative_l2
+from comparisons.judging.rule import relative_l2
 from comparisons.models.level import Level
 from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.problem import Problem

@@ -31,8 +31,7 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import COMPARED, NORMS, Quantity
 from comparisons.figures.uncertainty import Uncertainty, difference_of_figures, peak_resolution
-from comparisons.judging.comparison import norms, norms_of, relative_differences
-from comparisons.judging.contact import uncertainties, values_of
+from comparisons.judging.rule import judged, norms, norms_of, relative_differences, values_of
 from comparisons.judging.study import SCATTER, Case, Solved
 from comparisons.models.level import Level
 from comparisons.models.window import Window
@@ -135,8 +134,8 @@ def _figures(
     scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
     values, reference = _values(finest, case), values_of(model.finest, problem)
     levels = tuple(_on_level(finest, level, case.friction) for level in model.levels)
-    of_norms = norms_of(replace(model, name=name, levels=levels), model, case, window)
-    stated = uncertainties(model, problem) | {f.quantity: f.uncertainty for f in of_norms}
+    of_norms = norms_of(replace(model, name=name, levels=levels), problem, model, window)
+    stated = judged(model, problem) | {figure.quantity: figure for figure in of_norms}
     by_answer = [
         relative_differences(_values(answer, case), reference, problem)
         | norms(_on_level(answer, model.finest, case.friction), model.finest, window)
@@ -157,7 +156,7 @@ def _figures(
             unsure = own and Uncertainty(own)
             yield Figure(value=value, scale=abs(value) or 1.0, uncertainty=unsure, **common)
         tolerance = tolerances.get(quantity)
-        by_model = difference_of_figures(0.0, size, stated[quantity].total)
+        by_model = difference_of_figures(0.0, size, stated[quantity].numerical)
         yield Figure(
             value=difference,
             against=model.name,
@@ -201,12 +200,12 @@ def _validation(
                and counts as none"""
     measured = _values(answer, case)
     for name, run in case.runs.items():
-        stated = uncertainties(run, case.problem)
+        stated = judged(run, case.problem)
         for quantity, value in values_of(run.finest, case.problem).items():
             if not measured.get(quantity):
                 continue
             ratio, inputs = value / measured[quantity], scattered.one(quantity=quantity)
-            u_num = abs(ratio) * stated[quantity].total
+            u_num = abs(ratio) * stated[quantity].numerical
             u_input = abs(ratio) * inputs.by_inputs if inputs else None
             u_val = math.hypot(u_num, u_input or 0.0, u_data)
             row = {"quantity": quantity, "friction": case.friction, "model": name, "E": ratio - 1.0}

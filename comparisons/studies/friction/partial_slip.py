@@ -12,15 +12,14 @@ from functools import partial
 import numpy as np
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, columns_of
 from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import (
     PRESSURE_PER_RESIDUAL,
     Uncertainty,
+    by_levels,
     far_boundary,
     length_resolution,
-    numerical,
     of_increments,
 )
 from comparisons.judging.study import CONVERGED, WHY_NOT, Solved
@@ -175,7 +174,6 @@ def _uncertainty(
         resolution = sum(ends) * (known[name] / known["stick_length"] if known[name] else 0.0)
     resolution += END_READ * AT_AN_END.get(name, 0.0) * scale
     order = min(QUANTITIES[name].formal_order, *(model.most_order for model in models))
-    refined = grid_convergence(values, order, resolution)
     domain = sum(
         far_boundary(of(model.smaller), of(model.levels[0])) for model in models if model.smaller
     )
@@ -184,8 +182,8 @@ def _uncertainty(
         fewer = [model.fewer or model.levels[0] for model in models]
         increments = of_increments([of(*fewer), of(*(model.levels[0] for model in models))])
     worst = sum(PRESSURE_PER_RESIDUAL * model.finest.worst for model in models)
-    left = refined.uncertainty / scale
-    return numerical(worst, left, domain / scale, increments / scale, refined)
+    repeated = domain, increments
+    return by_levels(values, order, scale, resolution, iteration=worst, repeated=repeated)
 
 
 def _series(

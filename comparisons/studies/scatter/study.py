@@ -28,7 +28,7 @@ from comparisons.drawing.tables import figure_table
 from comparisons.figures.figure import Figure, Findings, SampleSpread, Series, Statement, columns_of
 from comparisons.figures.quantity import QUANTITIES, error_text, label
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.contact import values_of
+from comparisons.judging.rule import values_of
 from comparisons.judging.study import SCATTER as NAME
 from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.analytic import expected_of, half_plane_level

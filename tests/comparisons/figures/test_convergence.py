@@ -11,7 +11,7 @@ from analytic.contact.patches import contact_patches
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from comparisons.figures.convergence import IRREGULAR, LEVELS, REGULAR, TWO_GRIDS, grid_convergence
-from comparisons.judging.contact import formal_order
+from comparisons.judging.rule import formal_order
 
 
 def sequence(limit, error, order, levels=3):

@@ -12,17 +12,9 @@ from comparisons.figures.uncertainty import (
     length_resolution,
     peak_resolution,
 )
-from comparisons.judging.comparison import (
-    SHOWN,
-    differences_of,
-    discretisations,
-    relative_resolution,
-)
-from comparisons.judging.contact import uncertainties
-from comparisons.judging.study import (
-    Case,
-    Run,
-)
+from comparisons.judging.comparison import SHOWN, discretisations
+from comparisons.judging.rule import judged, relative_resolution
+from comparisons.judging.study import Case, Run
 from comparisons.models.level import ModelRun
 
 
@@ -40,7 +32,7 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
     run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
-    stated = uncertainties(run, smooth_outcome.problem)["peak_pressure"]
+    stated = judged(run, smooth_outcome.problem)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
     assert stated.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
     assert stated.total == pytest.approx(sum(stated.parts.values()))
@@ -50,7 +42,7 @@ def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(s
     """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
     level = smooth_outcome.runs["half_plane"].finest
     run = ModelRun("half_plane", (level, level, level))
-    stated = uncertainties(run, smooth_outcome.problem)
+    stated = judged(run, smooth_outcome.problem)
     expected = 0.1 * level.grid.pitch / level.contact_length
     assert stated["contact_length"].parts["discretisation"] == pytest.approx(expected)
     assert stated["peak_pressure"].parts["discretisation"] == 0.0
@@ -64,7 +56,7 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ru
 
     def scaled(times):
         half_plane = of_pressures(pair[0], pair[0].levels, (times,) * len(pair[0].levels))
-        row, *_ = differences_of(half_plane, pair[1], smooth_outcome.solved.cases[0]).values()
+        row, *_ = judged(half_plane, smooth_outcome.problem, pair[1]).values()
         assert row.quantity == "peak_pressure"
         assert row.value == pytest.approx(times - 1.0, abs=0.02)
         parts = row.uncertainty.parts
@@ -83,8 +75,8 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
     """Errors that both models have on each level leave none in their difference."""
     half_plane = smooth_outcome.runs["half_plane"]
     same = replace(half_plane, name="finite_element", far_boundary_check=None)
-    difference = differences_of(half_plane, same, smooth_outcome.solved.cases[0])["peak_pressure"]
-    alone = uncertainties(half_plane, smooth_outcome.problem)["peak_pressure"]
+    difference = judged(half_plane, smooth_outcome.problem, same)["peak_pressure"]
+    alone = judged(half_plane, smooth_outcome.problem)["peak_pressure"]
     assert alone.parts["discretisation"] > 1e-6
     assert difference.uncertainty.parts["discretisation"] == 0.0
 

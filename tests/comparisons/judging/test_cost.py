@@ -7,9 +7,9 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.tasks import Here
 from comparisons.figures.quantity import MODELS, WHOLE
-from comparisons.judging.contact import values_of
 from comparisons.judging.ladder import cost
 from comparisons.judging.ladder.cost import Method, Reference, cheapest, level_by, methods_of
+from comparisons.judging.rule import values_of
 from comparisons.runs.run import Known, run
 
 WAVE = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6}

@@ -13,13 +13,7 @@ from comparisons.common.progress import no_progress
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging import coupling
-from comparisons.judging.coupling import (
-    BEYOND_THE_END,
-    SHIFT,
-    Change,
-    Coupling,
-    couplings,
-)
+from comparisons.judging.coupling import BEYOND_THE_END, SHIFT, Change, Coupling, couplings
 from comparisons.judging.effects.estimates import estimates
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import WHY_NOT, Case, Run, Solved

@@ -9,7 +9,7 @@ import pytest
 from scenes import STEEL, half_plane_at, run_of
 from scipy.optimize import root
 
-from comparisons.judging.contact import uncertainties
+from comparisons.judging.rule import judged
 from comparisons.models.crest import RESOLVED
 from comparisons.models.problem import Levels
 
@@ -173,7 +173,7 @@ def test_shears_under_a_crest_are_as_unresolved_as_its_pressure(tmp_path):
     tables = ridge(tmp_path, "fine") | {"stress": {"points": [40, 20]}}
     run = run_of(tables, "half_plane", levels=Levels(6))
     model = run.runs["half_plane"]
-    known = uncertainties(replace(model, levels=model.levels[:3]), run.problem)
+    known = judged(replace(model, levels=model.levels[:3]), run.problem)
     levels = run.figures.one(study="contact", quantity="tau1_max").levels
     error = abs(levels[-1] / levels[2] - 1.0)
     assert 0.03 < error < known["tau1_max"].total < 4.0 * error

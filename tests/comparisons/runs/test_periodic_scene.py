@@ -7,7 +7,7 @@ from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 from analytic.layers.layered import LayeredBody, normal_compliance
 from comparisons.common.errors import ExitStatus, SceneError
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.contact import uncertainties, values_of
+from comparisons.judging.rule import judged, values_of
 from comparisons.models.smooth import closed_form
 from comparisons.output.page.pictures.contact import surface_picture
 from comparisons.output.page.tables.problem import problem_sheet
@@ -57,7 +57,7 @@ def wave():
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_both_models_are_westergaards_within_what_they_state(wave, model, friction):
     exact, levels = closed_form(wave.problem), wave.solved.case(friction).runs[model]
-    stated = uncertainties(levels, wave.problem)
+    stated = judged(levels, wave.problem)
     known = values_of(levels.finest, wave.problem)
     largest = exact.extremes(friction)
     for name, value in {

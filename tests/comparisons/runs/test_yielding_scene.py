@@ -10,7 +10,7 @@ from comparisons.common.numbers import decimal, significant
 from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import length_resolution
-from comparisons.judging.contact import uncertainties, values_of
+from comparisons.judging.rule import judged, values_of
 from comparisons.models.finite_element.cost import expected, flow_increments
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
@@ -108,7 +108,7 @@ def test_increments_have_an_uncertainty_of_their_own(outcome):
     posed, elements = outcome.problem, outcome.runs["finite_element"]
     pitch = elements.finest.grid.pitch
     level = finite_elements(posed, pitch, fields=True, travel=0.25)
-    stated = uncertainties(elements, posed)
+    stated = judged(elements, posed)
     reached = values_of(elements.finest, posed)
     edge = length_resolution(pitch, 1) / elements.finest.contact_length
     moved_to = values_of(level, posed)

@@ -10,8 +10,8 @@ from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import Stages
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.contact import values_of
 from comparisons.judging.model_error.show import not_modelled_line
+from comparisons.judging.rule import values_of
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.judging.verdict.within import rounded_up, within_of
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of

@@ -8,7 +8,6 @@ from operator import sub
 import numpy as np
 import pytest
 
-from comparisons.judging.comparison import relative_differences
 from comparisons.judging.effects.catalogue import ModelVariant
 from comparisons.judging.effects.catalogue import problem_with as body_problem
 from comparisons.judging.effects.selection import EffectSelection
@@ -19,6 +18,7 @@ from comparisons.judging.model_error.contributions import (
     split_variants,
 )
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.rule import relative_differences
 
 COUPLED = "normal_tangential_coupling"
 SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")

@@ -17,10 +17,10 @@ from scenes import (
     run_of,
 )
 
-from comparisons.judging.contact import values_of
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.model_error.contributions import split_variants
 from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.rule import values_of
 from comparisons.models.problem import Levels
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}

@@ -8,10 +8,10 @@ from scenes import STEEL, finite_elements, half_plane_at, problem, resolved
 from analytic.material import Law
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names
-from comparisons.judging.contact import values_of
 from comparisons.judging.effects.catalogue import UNKNOWN
 from comparisons.judging.effects.estimates import estimates
 from comparisons.judging.effects.laws import open_laws
+from comparisons.judging.rule import values_of
 from comparisons.models.posing import problem_of
 from comparisons.scenes.files import read_toml
 

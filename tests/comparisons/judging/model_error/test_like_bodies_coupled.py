@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scenes import STEEL, finite_elements, problem
 
-from comparisons.judging.comparison import relative_l2
 from comparisons.judging.effects.selection import select_effects
+from comparisons.judging.rule import relative_l2
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 

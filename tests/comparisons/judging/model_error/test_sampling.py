@@ -7,9 +7,9 @@ import pytest
 from scenes import KNOWN_STEEL, half_plane_at, run_of
 
 from comparisons.common.tasks import Tasks
-from comparisons.judging.contact import values_of
 from comparisons.judging.effects.sampling import sampling_changes
 from comparisons.judging.model_error.show import not_modelled_line
+from comparisons.judging.rule import values_of
 from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.level import ModelRun

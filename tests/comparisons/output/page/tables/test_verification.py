@@ -4,7 +4,7 @@ import pytest
 
 from comparisons.common.numbers import percent
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.judging.contact import uncertainties
+from comparisons.judging.rule import judged
 from comparisons.judging.study import Run
 from comparisons.output.page.tables.verification import WORDS, levels_tables
 
@@ -16,7 +16,7 @@ def test_each_judged_figure_says_how_it_converged(wavy_outcome: Run):
         table, run = tables[model], wavy_outcome.runs[name]
         rows = {row[0]: dict(zip(table.head, row, strict=True)) for row in table.rows}
         assert len(rows) == len(table.rows)
-        stated = uncertainties(run, problem)
+        stated = judged(run, problem)
         for quantity in ("peak_pressure", "contact_length"):
             row, known = rows[label(quantity)], stated[quantity].convergence
             observed, formal = row["order"].split("\nformal ")

@@ -1,0 +1,209 @@
+"""The rule by which a model is judged: by itself, or against another on the same pressure elements.
+
+In: a model on its levels. Out: figures of its finest one, or differences from the other, each with
+the uncertainty that levels, the far boundary, increments of flow and iteration leave. A difference
+is a figure of its own: what the pressure elements leave out is in both models."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from comparisons.figures.convergence import LOWEST_ORDER
+from comparisons.figures.figure import Figure
+from comparisons.figures.quantity import NORMS, QUANTITIES
+from comparisons.figures.uncertainty import (
+    by_levels,
+    far_boundary,
+    iteration,
+    length_resolution,
+    of_increments,
+)
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+
+CONTACT, COMPARISON = "contact", "comparison"  # studies of a model by itself, and of a difference
+UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
+AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
+EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
+
+
+def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -> dict[str, Figure]:
+    """By quantity: the model's figure [SI]; or (model - other) / other, judged where the scene has
+    a tolerance. `problem` is that of the case."""
+    both = [model] if against is None else [model, against]
+    finest, coarsest = [one.finest for one in both], [one.levels[0] for one in both[:-1]]
+
+    def read(*levels: Level) -> dict[str, float]:
+        values = [values_of(level, problem) for level in levels]
+        return values[0] if against is None else relative_differences(*values, problem)
+
+    history = [read(*levels) for levels in zip(*(one.levels for one in both), strict=True)]
+    repeated = by_repetition(both[-1], lambda level: read(*coarsest, level))
+    reference, figures = values_of(finest[-1], problem), {}
+    for name, value in history[-1].items():
+        values = tuple(of_level[name] for of_level in history)
+        size = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
+        unsolved, resolution = iteration(*(level.solution for level in finest)), 0.0
+        if against is not None:
+            unsolved *= max(1.0, abs(1.0 + value))
+        if name == "contact_length":
+            resolution = relative_resolution(*finest) if against else edges_read(model.finest)
+        # meshes and hats lack not the same of a crest: their difference was seen to stand still on
+        # levels that lack it, and to fall from 2 % to nothing on those that come to resolve it
+        crest = max(left_by_crest(name, level) for level in finest)
+        tolerance = problem.scene.tolerances.get(name) if against else None
+        figures[name] = Figure(
+            study=COMPARISON if against else CONTACT,
+            quantity=name,
+            source=model.name,
+            value=value,
+            at={"friction": problem.scene.load.friction[0]},
+            against=against and against.name,
+            scale=size,
+            uncertainty=by_levels(
+                values,
+                formal_order(name, finest if against else model.levels, problem),
+                scale=1.0 if against else size,
+                resolution=resolution,
+                iteration=unsolved,
+                repeated=repeated[name],
+                least=crest,
+            ),
+            bounds=(-tolerance, tolerance) if tolerance else None,
+            levels=values,
+        )
+    return figures
+
+
+def norms_of(
+    model: ModelRun, problem: Problem, against: ModelRun, window: Window | None
+) -> Iterator[Figure]:
+    """The norms of both models' difference. They may be equal by chance: what a repetition changes
+    counts by its own norm."""
+    pairs = zip(model.levels, against.levels, strict=True)
+    history, first = [norms(*pair, window) for pair in pairs], against.levels[0]
+    repeated = by_repetition(against, lambda level: norms(level, first, window))
+    unsolved = iteration(model.finest.solution, against.finest.solution)
+    for name, size in history[-1].items():
+        values, order = tuple(of_level[name] for of_level in history), NORMS[name].formal_order
+        known = {"iteration": unsolved, "repeated": repeated[name]}
+        yield Figure(
+            study=COMPARISON,
+            quantity=name,
+            source=model.name,
+            value=size,
+            at={"friction": problem.scene.load.friction[0]},
+            against=against.name,
+            uncertainty=by_levels(values, order, **known),
+            levels=values,
+        )
+
+
+def values_of(level: Level, problem: Problem) -> dict[str, float]:
+    """The compared quantities that one model has by itself, SI."""
+    values = {
+        "peak_pressure": float(level.solution.pressure.max()),
+        "contact_length": level.contact_length,
+    }
+    if (stress := level.stress) is not None:
+        tau1 = stress.extremes["tau1"]
+        values["tau1_max"] = tau1.value
+        values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
+        values["txz_max_abs"] = abs(stress.extremes["txz"].value)
+    return values
+
+
+def relative_differences(
+    one: Mapping[str, float], reference: Mapping[str, float], problem: Problem
+) -> dict[str, float]:
+    """(one - reference) / reference of figures by name, or over Hertz's where that vanishes."""
+    sizes = {}
+    for name, value in one.items():
+        scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
+        sizes[name] = (value - reference[name]) / scale
+    return sizes
+
+
+def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
+    """Height [m] of the level's boundary above places x [m], from which depths count."""
+    if level.mesh is None or not problem.rough_boundary:
+        return np.zeros(np.shape(x))
+    return problem.surface.profile.spline()(x)
+
+
+def by_repetition(
+    run: ModelRun, read: Callable[[Level], Mapping[str, float]]
+) -> dict[str, tuple[float, float]]:
+    """Uncertainties by the far boundary and by the increments of flow of what is read off a level,
+    in its units: by the coarsest level and what it was repeated with."""
+    first, check = read(run.levels[0]), run.far_boundary_check
+    moved = first if check is None else read(check)
+    increments = [*map(read, run.longer_increments), first]
+    return {
+        name: (
+            far_boundary(moved.get(name, value), value),
+            of_increments([figures.get(name, value) for figures in increments]),
+        )
+        for name, value in first.items()
+    }
+
+
+def left_by_crest(name: str, level: Level) -> float:
+    """Bound of a level's error by crests that it does not resolve, relative: of the peak pressure,
+    and of a largest shear so near to the surface that it belongs to a crest."""
+    key = EXTREMES.get(name)
+    near = key and level.stress.extremes[key].z <= UNDER_CREST * level.grid.pitch
+    return level.unresolved_crest if near or name == "peak_pressure" else 0.0
+
+
+def formal_order(name: str, levels: Sequence[Level], problem: Problem) -> float:
+    """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
+    largest stress to the surface, there it stands at an end of contact, next to which stresses go
+    with the square root of the distance: half an order, whatever the elements."""
+    key = EXTREMES.get(name)
+    if key is not None:
+        depths = (level.stress.extremes[key].z for level in levels)
+        if any(z <= AT_SURFACE * level.grid.pitch for z, level in zip(depths, levels, strict=True)):
+            return LOWEST_ORDER
+    order, elements = QUANTITIES[name].formal_order, problem.scene.finite_element
+    meshed = any(level.mesh is not None for level in levels)
+    return min(order, elements.most_order) if meshed else order
+
+
+def edges_read(level: Level) -> float:
+    """How finely the level's length of contact is read [m]."""
+    return length_resolution(level.grid.pitch, len(level.patches))
+
+
+def relative_resolution(level: Level, reference: Level) -> float:
+    """How finely the difference of two contact lengths is read, of two models or of an effect,
+    relative to the reference's: both err."""
+    ratio = level.contact_length / reference.contact_length
+    return (edges_read(level) + ratio * edges_read(reference)) / reference.contact_length
+
+
+def norms(level: Level, reference: Level, window: Window | None) -> dict[str, float]:
+    """Relative L2 norms of the difference of the pressures of two levels on the same elements, and
+    of their tau1 on the window, where both have that."""
+    sizes = {"pressure_l2": relative_l2(level.solution.pressure, reference.solution.pressure)}
+    tau1 = [known.stress and known.stress.tau1 for known in (level, reference)]
+    if all(field is not None for field in tau1):
+        thickness = np.gradient(window.z)[:, None]  # of the layer that each depth stands for
+        sizes["tau1_l2"] = relative_l2(*tau1, thickness)
+    return sizes
+
+
+def relative_l2(
+    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
+) -> float:
+    """||values - reference|| / ||reference||; points where either is not finite are left out."""
+    known = np.isfinite(values) & np.isfinite(reference)
+    if not known.all():
+        weights = np.broadcast_to(weights, values.shape)[known]
+        values, reference = values[known], reference[known]
+    size = np.sum(weights * reference**2)
+    if size == 0.0:
+        return 0.0 if not np.any(values) else np.inf
+    return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))
