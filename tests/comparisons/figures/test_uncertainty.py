@@ -34,8 +34,8 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
     stated = judged(run, smooth_outcome.problem)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
-    assert stated.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
-    assert stated.total == pytest.approx(sum(stated.parts.values()))
+    assert stated.uncertainty.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
+    assert stated.numerical == pytest.approx(sum(stated.uncertainty.parts.values()))
 
 
 def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(smooth_outcome: Run):
@@ -44,8 +44,8 @@ def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(s
     run = ModelRun("half_plane", (level, level, level))
     stated = judged(run, smooth_outcome.problem)
     expected = 0.1 * level.grid.pitch / level.contact_length
-    assert stated["contact_length"].parts["discretisation"] == pytest.approx(expected)
-    assert stated["peak_pressure"].parts["discretisation"] == 0.0
+    assert stated["contact_length"].uncertainty.parts["discretisation"] == pytest.approx(expected)
+    assert stated["peak_pressure"].uncertainty.parts["discretisation"] == 0.0
     assert length_resolution(1.0, 9) == pytest.approx(3.0 * length_resolution(1.0, 1))
 
 
@@ -77,7 +77,7 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
     same = replace(half_plane, name="finite_element", far_boundary_check=None)
     difference = judged(half_plane, smooth_outcome.problem, same)["peak_pressure"]
     alone = judged(half_plane, smooth_outcome.problem)["peak_pressure"]
-    assert alone.parts["discretisation"] > 1e-6
+    assert alone.uncertainty.parts["discretisation"] > 1e-6
     assert difference.uncertainty.parts["discretisation"] == 0.0
 
 

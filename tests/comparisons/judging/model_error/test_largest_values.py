@@ -47,12 +47,12 @@ def errors(
         sure = Uncertainty({"numerical": settled})
         row = Figure("comparison", name, "half_plane", difference, {"friction": 0.0})
         rows.append(replace(row, against="finite_element", uncertainty=sure))
-    stated = {name: SimpleNamespace(total=settled) for name in ("tau1_max", "tau1_max_depth")}
+    stated = {name: SimpleNamespace(numerical=settled) for name in ("tau1_max", "tau1_max_depth")}
     with patch.multiple(
         MODULE,
         quantities_of=lambda level, problem: level.values,
         values_of=lambda level, *of: level.values.largest(),
-        uncertainties=lambda *arguments: stated,
+        judged=lambda *arguments: stated,
         iteration=lambda *solutions: 0.0,
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
