@@ -56,18 +56,13 @@ class Answer:
         """Contact patches (k, 2) [m]: an edge where the line through the squares of the last two
         pressures vanishes, as at a smooth edge the square root does, and before the next point."""
         first, after = runs_of(self.touching)
-        edges = [
-            (self._edge(i, -1), self._edge(j - 1, 1)) for i, j in zip(first, after, strict=True)
-        ]
-        return np.array(edges).reshape(-1, 2)
+        return np.stack([self._edges(first, -1), self._edges(after - 1, 1)], axis=1)
 
-    def _edge(self, last: int, way: int) -> float:
-        x, squares, beyond = self.x, self.pressure**2, last + way
-        if not 0 <= beyond < len(x):
-            return float(x[last])
-        inner = last - way
-        edge = 0.5 * (x[last] + x[beyond])
-        if 0 <= inner < len(x) and squares[inner] > squares[last]:
-            step = (x[last] - x[inner]) / (squares[inner] - squares[last])
-            edge = x[last] + squares[last] * step
-        return float(np.clip(edge, *sorted((x[last], x[beyond]))))
+    def _edges(self, last: np.ndarray, way: int) -> np.ndarray:
+        """x (k,) [m] of the edges that lie one `way` from the last points in contact."""
+        x, squares = self.x, self.pressure**2
+        beyond, inner = (np.clip(last + step, 0, len(x) - 1) for step in (way, -way))
+        rise = squares[inner] - squares[last]
+        step = (x[last] - x[inner]) / np.where(rise > 0.0, rise, np.inf)
+        edge = np.where(rise > 0.0, x[last] + squares[last] * step, 0.5 * (x[last] + x[beyond]))
+        return np.clip(edge, *np.sort([x[last], x[beyond]], axis=0))
