@@ -183,24 +183,23 @@ class FinishedRun(RecordedRun):
     def __repr__(self) -> str:
         """In ten lines: title, the verdict, the first figures and what to do next. A notebook
         shows the tables of the command line."""
-        from comparisons.judging.model_error.show import model_error_rows
+        from comparisons.judging.model_error.show import error_table
         from comparisons.judging.verdict.headline import headline, verdicts
-        from comparisons.output.page.tables.comparison import figure_rows
-        from comparisons.output.terminal import SHORT
+        from comparisons.output.page.tables.comparison import comparison_table
 
         run, said = self.outcome, headline(self.outcome)
         if run.plan.compares:
             rows = [
-                f"{SHORT[row.quantity]:14}  {row.friction:6}  half-plane {half_plane}, whole "
-                f"{whole}: error {error} ± {unsure}"
-                for row in model_error_rows(run, judged=True)
-                for half_plane, whole, error, unsure, *_ in [row.cells]
+                f"{name:14}  {friction:6}  half-plane {half_plane}, whole {whole}: error {error} ± "
+                f"{unsure}"
+                for name, friction, half_plane, whole, error, unsure, *_ in error_table(
+                    run, brief=True
+                ).rows
             ]
         else:
             rows = [
-                f"{SHORT[row.quantity]:14}  {row.friction:6}  {value:>9}  {of_hertz:>11} ± {unsure}"
-                for row in figure_rows(run)
-                for value, of_hertz, unsure in [row.cells]
+                f"{name:14}  {friction:6}  {value}  {of_hertz:>11}"
+                for name, friction, value, of_hertz in comparison_table(run, brief=True).rows
             ]
         left = len(rows) - SHOWN
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []

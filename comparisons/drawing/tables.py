@@ -4,6 +4,7 @@ In: figures, and what they are of. Out: a table with a row a quantity and a colu
 and values of what no model says, and what decides in a sentence."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import chain
 from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
@@ -89,6 +90,7 @@ def figure_table(
     title: str = "",
     below: Below = lambda figure: "",
     beside: Mapping[str, Below] = {},
+    off: Callable[[Figure], tuple[str, str]] | None = None,
     brief: bool = False,
 ) -> TextTable:
     """A row for each quantity, friction coefficient and difference, in the order of quantities;
@@ -96,10 +98,12 @@ def figure_table(
     uncertainty, all in one unit; where anything is compared or judged difference, uncertainty,
     tolerance, verdict; then what `beside` says by its heads of the row's difference, or value.
 
-    brief  short names, and values alone, in four digits"""
+    off    a difference and its uncertainty in words, where digits alone do not do
+    brief  short names, and of what is compared values alone, in four digits"""
     known = _in_order(figures, quantities)
-    sources = dict.fromkeys(f.source for f in known if f.against is None)
-    pairs = {(f.source, f.against) for f in known if f.against is not None}
+    pairs = dict.fromkeys((f.source, f.against) for f in known if f.against is not None)
+    valued = [figure.source for figure in known if figure.against is None]
+    sources = dict.fromkeys(name for name in (*chain(*pairs), *valued) if name in valued)
     is_judged = any(figure.bounds for figure in known)
     has_friction, rows = any(f.friction is not None for f in known), []
     for same in grouped(known, lambda figure: (figure.quantity, figure.friction)):
@@ -109,20 +113,20 @@ def figure_table(
         texts = []
         for source in sources:
             one = values.get(source)
-            text = scale.text(one and one.value) if brief and one else stated(one, scale)
+            text = scale.text(one.value) if one and brief and pairs else stated(one, scale)
             texts.append(_lines(text, below(one) if one else ""))
         bounded = [figure for figure in values.values() if figure.bounds is not None]
         differences = [figure for figure in same if figure.against is not None]
         for figure in differences or bounded or same[:1]:
-            name, off, judged = quantity.short if brief else quantity.label, ("", ""), ("", "")
+            name, apart, judged = quantity.short if brief else quantity.label, ("", ""), ("", "")
             if figure.against is not None:
                 name = _lines(name, _pair(figure) if len(pairs) > 1 else "", below(figure))
                 size = percent(figure.value, signed=bool(values), uncertainty=figure.numerical)
-                off = size, percent(figure.numerical)
+                apart = off(figure) if off else (size, percent(figure.numerical))
             if figure.bounds is not None:
                 judged = _allowed(figure, quantity.unit), figure.verdict
             more = (say(figure) for say in beside.values())
-            cells = *texts, *off * bool(pairs), *judged * is_judged, *more
+            cells = *texts, *apart * bool(pairs), *judged * is_judged, *more
             rows.append((figure, (name, *cells)))
     joined = []
     for alike in grouped(rows, lambda row: (row[0].quantity, row[1])):

@@ -19,6 +19,7 @@ HYPHENATED = {"half_plane": "half-plane", "finite_element": "finite-element"}  #
 WHOLE = "whole"  # model: the finite elements with every effect that matters
 USUAL = 0.02  # relative tolerance of a scene that gives none
 LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
+LABELS["operators"] = "layered half-plane"  # of scenes with a layer or a coating
 
 
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")

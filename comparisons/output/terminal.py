@@ -1,21 +1,19 @@
 """The short table of a run for the terminal: figures, verdict, what to do next, time."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import percent, with_unit
+from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
 from comparisons.judging.ladder import cost
-from comparisons.judging.model_error.show import contributions, model_error_rows
+from comparisons.judging.model_error.show import error_table
 from comparisons.judging.presentation import lines_of
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.headline import headline, verdicts
-from comparisons.models.smooth import scale_words
 from comparisons.output.page.tables.comparison import (
-    capped,
-    comparison_rows,
-    figure_rows,
+    comparison_table,
     first_model,
 )
 from comparisons.output.page.tables.problem import surface_text
@@ -35,6 +33,9 @@ STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt", ord("δ"): "delta", ord("κ"): "kappa"}
+HEADS = {"friction": "mu", "half-plane": "half-\nplane", "whole model": "whole\nmodel"}
+HEADS |= {"layered half-plane": "layered\nhalf-\nplane", "finite elements": "finite\nelements"}
+HEADS |= {"difference": "differ.\n%", "uncertainty": "uncert.\n%", "tolerance": "tol.\n%"}
 SHORT = {name: quantity.short.translate(PLAIN) for name, quantity in COMPARED.items()}
 
 
@@ -52,7 +53,7 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     commands = (Text(text, no_wrap=True, overflow="ignore") for text in said.paste)
     agreement = "" if details else agreement_line(run)
     if not run.plan.compares:
-        tables = [_figures(run)]
+        tables = [_comparison(run)]
     else:
         tables = [Text(agreement.translate(PLAIN)) if agreement else _comparison(run)]
         if run.problem.scene.tolerances:
@@ -101,30 +102,33 @@ def agreement_line(run: Run) -> str:
 
 
 def _comparison(run: Run) -> "Table":
-    first, shown = first_model(run).replace(" ", "\n").replace("half-plane", "half-\nplane"), []
-    for row in comparison_rows(run):
-        name = f"{SHORT[row.quantity]}\n{capped(run, row.figure)}".strip()
-        shown.append(_bare((name, row.friction, *row.cells)))
-    numbers = "mu", first, "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"
-    table = plain_table("quantity", numbers=numbers, last="verdict", rows=shown)
-    table.caption = f"difference: ({first_model(run)} - finite elements) / finite elements"
-    if any(row[-1] == "inconclusive" for row in shown):
-        table.padding = 0  # the longest verdict fits into 80 columns
+    """Both models' figures, or those of the only one."""
+    table = _brief(comparison_table(run, brief=True))
+    if run.plan.compares:
+        table.caption = f"difference: ({first_model(run)} - finite elements) / finite elements"
     return table
 
 
 def _model_errors(run: Run) -> "Table":
     """Of the half-plane in what is judged, and what most of it comes from."""
-    shown = []
-    for row in model_error_rows(run, judged=True):
-        *cells, _, note, _ = row.cells
-        most = "".join(contributions(run, row.figure)[:1]).replace(" %", "")
-        words = "\n".join(filter(None, (most, note)))
-        shown.append(_bare((SHORT[row.quantity], row.friction, *cells, words)))
-    numbers = ("mu", "half-\nplane", "whole\nmodel", "error\n%", "+-\n%", "tol.\n%")
-    table = plain_table("quantity", numbers=numbers, last="mostly by, %", rows=shown)
+    heads = {"difference": "error\n%", "uncertainty": "+-\n%"}
+    table = _brief(error_table(run, brief=True), heads, ("verdict",))
     table.title = "model error of the half-plane"
     table.padding = 0  # what it is mostly made of fits into 80 columns
+    return table
+
+
+def _brief(
+    shown: TextTable, heads: Mapping[str, str] = {}, left_out: tuple[str, ...] = ()
+) -> "Table":
+    """A table of figures in 80 columns."""
+    kept = [k for k, name in enumerate(shown.head) if name not in left_out]
+    first, *numbers = ((HEADS | heads).get(shown.head[k], shown.head[k]) for k in kept)
+    last = numbers.pop() if shown.words or numbers[-1] == "verdict" else ""
+    rows = [_bare(row[k] for k in kept) for row in shown.rows]
+    table = plain_table(first, numbers=numbers, last=last, rows=rows)
+    if any(row[-1] == "inconclusive" for row in rows):
+        table.padding = 0  # the longest verdict fits into 80 columns
     return table
 
 
@@ -135,12 +139,6 @@ def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
     table = plain_table(first, numbers=numbers, last=last, rows=map(_bare, shown.rows))
     table.title = f"{answer}, from outside"
     return [table, *(plain_text(f"{n}: {text}") for n, text in answer_facts(outcome, answer))]
-
-
-def _figures(outcome: Run) -> "Table":
-    numbers = "mu", "value", f"of {scale_words(outcome.problem)}", "uncert.\n%"
-    rows = ((SHORT[row.quantity], row.friction, *row.cells) for row in figure_rows(outcome))
-    return plain_table("quantity", numbers=numbers, rows=map(_bare, rows))
 
 
 def _bare(row: Iterable[str]) -> list[str]:

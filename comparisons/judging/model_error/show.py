@@ -6,7 +6,7 @@ where nothing is judged."""
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -16,20 +16,20 @@ from comparisons.common.numbers import (
     UNKNOWN,
     listed,
     percent,
-    percent_as_written,
-    scale_of,
+    plain,
     with_unit,
 )
 from comparisons.drawing import curves, style
-from comparisons.drawing.blocks import Block, Note, Pictures, TableRow, TextTable, table_rows
+from comparisons.drawing.blocks import Block, Note, Pictures, TextTable, table_rows
+from comparisons.drawing.tables import figure_table
 from comparisons.figures.figure import Figure, grouped
-from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
+from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE, error_text, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.model_error.account import INTERACTION, JUMP, TRUST
-from comparisons.judging.study import MODEL_ERROR, Run
+from comparisons.judging.study import LADDER, MODEL_ERROR, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,45 +78,55 @@ def lines(run: Run) -> list[tuple[str, str]]:
     said = [("not modelled", missing)] if missing else []
     if (strained := run.findings[MODEL_ERROR].said(TRUST)) is not None:
         said.append((TRUST, strained))
-    for row in model_error_rows(run, judged=True):
-        if moved := _moved(row.figure):
-            name = QUANTITIES[row.quantity].short
-            said.append(("another asperity", f"{name}, friction {row.friction}: {moved}"))
+    for error in run.model_errors:
+        if moved := _moved(error):
+            name = QUANTITIES[error.quantity].short
+            said.append(("another asperity", f"{name}, friction {plain(error.friction)}: {moved}"))
     return said
 
 
-def error_table(run: Run) -> TextTable:
-    """The rows for the page; what they are made of where any error is split."""
-    rows, cells = model_error_rows(run), []
-    head = ("quantity", "friction", "model error", "uncertainty", "tolerance")
-    split = any(contributions(run, row.figure) for row in rows)
-    for row in rows:
-        *_, error, uncertainty, tolerance, parts, note, moved = row.cells
-        name = "\n".join(filter(None, (label(row.quantity), note, moved)))
-        cells.append((name, row.friction, error, uncertainty, tolerance, *[parts] * split))
-    head += ("dominant contributions",) * split
-    return TextTable("", head, tuple(cells), "comparison", words=split)
+def error_table(run: Run, brief: bool = False) -> TextTable:
+    """The half-plane's figures, the whole model's and the errors; beside them what they are made
+    of, where any is split; below a name what is not modelled of it, and where the whole has its
+    largest value if not at the half-plane's asperity.
+
+    brief  for a terminal: what is judged, and most of what makes it up"""
+    errors = [error for error in run.figures.of(study=MODEL_ERROR) if error.bounds or not brief]
+    of_contact = run.figures.of(study=contact.NAME, source=MODELS[0])
+    known = [of_contact.one(quantity=error.quantity, at=error.at) for error in errors]
+    known += [_whole(run, error) for error in errors]
+
+    def below(figure: Figure) -> str:
+        said = () if figure.against is None or brief else (_not_known(run, figure), _moved(figure))
+        return "\n".join(filter(None, said))
+
+    def size(error: Figure) -> tuple[str, str]:
+        if leaves_flow_out(run, error):
+            return UNKNOWN, UNKNOWN
+        value = law_range(error) or error_text(error.value, error.numerical)
+        return value, percent(error.numerical)
+
+    def most(error: Figure) -> str:
+        largest = "".join(contributions(run, error)[:1]).replace(" %", "")
+        return "\n".join(filter(None, (largest, _not_known(run, error))))
+
+    beside = {"mostly by, %": most} if brief else {}
+    if not brief and any(contributions(run, error) for error in errors):
+        beside = {"dominant contributions": lambda error: ", ".join(contributions(run, error))}
+    return figure_table((*known, *errors), QUANTITIES, "", below, beside, size, brief)
 
 
-def model_error_rows(run: Run, judged: bool = False) -> list[TableRow]:
-    """The half-plane's figure and the whole model's with unit, error, uncertainty, tolerance, what
-    makes it up, what is not modelled of it, where the whole has its largest value if not at the
-    half-plane's asperity; only quantities that are `judged`, if asked."""
-    errors = run.figures.of(study=MODEL_ERROR)
-    names = {error.quantity for error in errors if error.bounds or not judged}
-
-    def cells(error: Figure) -> tuple[str, ...]:
-        size = law_range(error) or error_text(error.value, error.numerical)
-        tolerance = "" if error.bounds is None else percent_as_written(error.tolerance)
-        said = ", ".join(contributions(run, error)), _not_known(run, error), _moved(error)
-        whole = figure_of_whole(run, error)
-        pair = whole + error.scale * error.value, whole
-        scale = scale_of(pair, QUANTITIES[error.quantity].unit)
-        shown = scale.text(whole), size, percent(error.numerical)
-        shown = (UNKNOWN,) * 3 if leaves_flow_out(run, error) else shown
-        return scale.text(pair[0]), *shown, tolerance, *said
-
-    return table_rows(errors, [name for name in QUANTITIES if name in names], cells)
+def _whole(run: Run, error: Figure) -> Figure:
+    """The whole model's figure; unknown where flow is left out."""
+    known = run.figures.one(study=LADDER, source=WHOLE, quantity=error.quantity, at=error.at)
+    return replace(
+        error,
+        source=WHOLE,
+        against=None,
+        value=math.nan if leaves_flow_out(run, error) else figure_of_whole(run, error),
+        uncertainty=None if known is None else known.uncertainty,
+        bounds=None,
+    )
 
 
 def figure_of_whole(run: Run, error: Figure) -> float:

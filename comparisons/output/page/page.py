@@ -30,7 +30,7 @@ from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
 from comparisons.output.page.tables import verification
-from comparisons.output.page.tables.comparison import comparison_table, figure_table, first_model
+from comparisons.output.page.tables.comparison import comparison_table, first_model
 from comparisons.output.page.tables.problem import facts, problem_items
 from comparisons.studies import STUDIES
 from comparisons.studies import problem as asked
@@ -166,7 +166,7 @@ def _before(run: Run) -> Iterator[Block]:
         note = Note(NOTES["comparison"] + _of_layered(run, "layered"))
         yield Block("comparison", (comparison_table, note), "Comparison")
     else:
-        yield Block("comparison", (figure_table,), "Figures")
+        yield Block("comparison", (comparison_table,), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
     yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
 

@@ -10,7 +10,7 @@ from analytic.grid import roller_gap
 from comparisons.common.errors import SceneError
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.selection import FLOW
-from comparisons.judging.model_error.show import model_error_rows
+from comparisons.judging.model_error.show import error_table
 from comparisons.judging.verdict.headline import headline
 from comparisons.judging.verdict.within import within_of
 from comparisons.judging.yielding import lines
@@ -92,8 +92,8 @@ def test_a_solid_that_typically_flows_is_not_judged_without_its_yield_stress():
     assert "it flows at such stresses: alloy steel typically flows at" in within.sentence
     assert said.sentence == "Nothing said of an elastic body will hold."
     assert said.next.startswith("the flow is computed with body.yield_stress; 1080 MPa is typical")
-    for row in model_error_rows(run, judged=True):
-        _, whole, error, *_, note, _ = row.cells
+    for row in error_table(run, brief=True).rows:
+        *_, whole, error, _, _, _, note = row
         assert (whole, error, note) == ("–", "–", "plastic flow not modelled")
     assert run.data("model_error").selection.added == frozenset()
     named, linear = (asked_in_python(line, run.problem.scene) for line in said.paste)
