@@ -10,8 +10,6 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import StressResult
@@ -23,6 +21,7 @@ from comparisons.studies.answers.meshes import read_mesh
 
 FEWEST = 5  # points that show a pressure
 PLANES = 3  # of nodes of one layer of elements
+PART = "RegionId"  # array of pyvista's: what hangs together
 SAME = 1e-6  # of the mesh's extent: nodes of one plane
 SAME_PLACE = 1e-12  # of the length: x closer than this coincide
 FACING = 0.5  # cosine between the normal of a top edge and the way up
@@ -106,7 +105,7 @@ def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[n
 
 def _plane_mesh(path: Path, source: AnswerSection, friction: float) -> PlaneMesh:
     """The rough body of a file: what hangs together and lies below the surface."""
-    faces = read_mesh(path, source.step)
+    faces = read_mesh(path, source.step).connectivity()
     points = np.asarray(faces.points, dtype=float) * source.unit("length")
     vertical, sign = _up(points, source)
     level, tolerance = points[:, 3 - vertical], SAME * float(np.ptp(points))
@@ -117,9 +116,14 @@ def _plane_mesh(path: Path, source: AnswerSection, friction: float) -> PlaneMesh
             "a plane, or one layer of elements"
         )
     x, z = points[:, 0] - source.x_origin, source.z_origin - sign * points[:, vertical]
-    in_plane = np.all(level[faces.triangles] < level.min() + tolerance, axis=1)
-    used, triangles = np.unique(_below(z, faces.triangles[in_plane]), return_inverse=True)
-    arrays = {name: values[used] for name, values in faces.arrays.items()}
+    triangles, part = faces.regular_faces, np.asarray(faces.point_data[PART])
+    triangles = triangles[np.all(level[triangles] < level.min() + tolerance, axis=1)]
+    below = np.bincount(part, z)[part] > 0.0  # of parts whose nodes, on average, are
+    if not below[triangles].any():
+        raise ValueError('has no body below its surface; allowed is up = "-y" or such, z_origin')
+    used, triangles = np.unique(triangles[below[triangles[:, 0]]], return_inverse=True)
+    known = {name: np.asarray(values)[used] for name, values in faces.point_data.items()}
+    arrays = {n: v for n, v in known.items() if n != PART and v.dtype.kind in "fiub"}
     stress = source.unit("stress") * np.array(_stress_of(arrays, vertical, sign, friction))
     if not np.all(np.abs(stress) <= LARGEST):
         most = f"allowed is one up to {LARGEST:g} Pa at every node"
@@ -136,17 +140,6 @@ def _up(points: np.ndarray, source: AnswerSection) -> tuple[int, int]:
     if min(above, below) > max(above, below) / 3.0:
         raise ValueError('does not say which way is out of the body; allowed is up = "y" or such')
     return vertical, 1 if below > above else -1
-
-
-def _below(z: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Triangles of the parts whose nodes, on average, lie below the surface."""
-    ends = triangles[:, [0, 1, 1, 2]].reshape(-1, 2).T
-    joined = coo_array((np.ones(ends.shape[1]), ends), (len(z), len(z)))
-    _, part = connected_components(joined, directed=False)
-    kept = triangles[np.bincount(part, z)[part[triangles[:, 0]]] > 0.0]
-    if len(kept) == 0:
-        raise ValueError('has no body below its surface; allowed is up = "-y" or such, z_origin')
-    return kept
 
 
 def _stress_of(

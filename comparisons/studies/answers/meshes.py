@@ -12,40 +12,31 @@ import logging.handlers
 import resource
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from analytic.surface.readers.child import ReaderError, said_by
 from comparisons.common.provenance import PROJECT
 
 if TYPE_CHECKING:
-    from pyvista import UnstructuredGrid
+    from pyvista import PolyData, UnstructuredGrid
 
 INSTALL = "python -m pip install pyvista-frd-reader h5py"
 END_OF_FRD = b"9999"
 XDMF = ".xdmf", ".xmf"
 BY_MESHIO = (*XDMF, ".med", ".msh")
-ARRAY = "array "  # before the names of arrays, in the file between both processes
 MOST_MEMORY = 8 * 10**9  # bytes of address space of the reader
 
 
-@dataclass(frozen=True)
-class Faces:
-    """The outer faces of a mesh, between all of their nodes; a plane mesh is all face."""
+def read_mesh(path: Path, step: int | None) -> "PolyData":
+    """The outer faces of a mesh, triangles between all of their nodes, with the arrays at these, at
+    a step in time, the last by default; a plane mesh is all face. Raises ValueError with what is
+    wrong."""
+    import pyvista
 
-    points: np.ndarray  # (n, 3) as in the file
-    triangles: np.ndarray  # (m, 3)
-    arrays: dict[str, np.ndarray]  # at the points
-
-
-def read_mesh(path: Path, step: int | None) -> Faces:
-    """Faces at a step in time, the last by default. Raises ValueError with what is wrong."""
     with TemporaryDirectory() as folder:
-        out = Path(folder) / "faces.npz"
+        out = Path(folder) / "faces.vtp"
         steps = [] if step is None else [str(step)]
         command = [sys.executable, "-m", __name__, str(path.absolute()), str(out), *steps]
         try:
@@ -53,10 +44,7 @@ def read_mesh(path: Path, step: int | None) -> Faces:
         except ReaderError as error:
             whole = "" if "allowed" in str(error) else "; allowed is a whole result file"
             raise ValueError(f"{error}{whole}") from None
-        with np.load(out) as file:
-            named = [name for name in file.files if name.startswith(ARRAY)]
-            arrays = {name.removeprefix(ARRAY): file[name] for name in named}
-            return Faces(file["points"], file["triangles"], arrays)
+        return pyvista.read(out)
 
 
 def _chosen(count: int, step: int | None) -> int:
@@ -116,10 +104,7 @@ def _write_faces(path: Path, out: Path, step: int | None) -> None:
     faces.SetInputData(mesh.cell_data_to_point_data() if mesh.cell_data else mesh)
     faces.SetNonlinearSubdivisionLevel(1)
     faces.Update()
-    surface = pyvista.wrap(faces.GetOutput()).triangulate()
-    arrays = {ARRAY + name: np.asarray(values) for name, values in surface.point_data.items()}
-    arrays = {name: values for name, values in arrays.items() if values.dtype.kind in "fiub"}
-    np.savez(out, points=surface.points, triangles=surface.faces.reshape(-1, 4)[:, 1:], **arrays)
+    pyvista.wrap(faces.GetOutput()).triangulate().save(out)
 
 
 if __name__ == "__main__":
