@@ -22,12 +22,13 @@ from comparisons.common.numbers import (
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.figure import (
     FAILED,
+    PASSED,
     Column,
     Figure,
     Series,
     Statement,
+    deciding,
     grouped,
-    nearest_to_tolerance,
 )
 from comparisons.figures.quantity import LABELS, Quantity
 
@@ -36,8 +37,6 @@ if TYPE_CHECKING:
 
 MOST_DIGITS = 5  # of a figure beside its uncertainty
 PURE = Scale(1.0, "")
-PASSED = "agree", "holds"
-WORST_FIRST = (*FAILED, "inconclusive", *PASSED)
 TINY = 1e-4  # a number whose digits begin beyond four zeros is written with a power of ten
 Below = Callable[[Figure], str]  # grey lines below a value, or below the name of a difference
 
@@ -187,38 +186,31 @@ def line_of(figures: Sequence[Figure], quantities: Mapping[str, Quantity]) -> st
     judged = [figure for figure in known if figure.bounds is not None]
     if not known:
         return ""
-    worst = next((v for v in WORST_FIRST for f in judged if f.verdict == v), "")
-    alike = [figure for figure in judged if figure.verdict == worst] or known
-    said, after = "", ""
-    if worst in ("", *PASSED):
+    one, said, after = (deciding(judged) if judged else known[0]), "", ""
+    alike = [figure for figure in judged if figure.verdict == one.verdict] or known
+    if one.verdict in (None, *PASSED):
         first = [figure for figure in alike if figure.quantity == alike[0].quantity]
-        deciding = max(first, key=lambda figure: figure.friction or 0.0)
-        after = f"; all {len(judged)} {worst}" if judged[1:] else ""
-    else:
-        deciding = nearest_to_tolerance(alike)
-        which = "the farthest outside" if worst in FAILED else "nearest to its tolerance"
-        which = f"; {which}" if alike[1:] else ""
-        said = f"{len(alike)} of {len(judged)} {worst}{which}: " if judged[1:] else ""
-    meaning, same = quantities[deciding.quantity], _alike(known, deciding)
+        after = f"; all {len(judged)} {one.verdict}" if judged[1:] else ""
+        one = max(first, key=lambda figure: figure.friction or 0.0)
+    elif judged[1:]:
+        which = "the farthest outside" if one.verdict in FAILED else "nearest to its tolerance"
+        said = f"{len(alike)} of {len(judged)} {one.verdict}{f'; {which}' * bool(alike[1:])}: "
+    meaning = quantities[one.quantity]
+    same = [figure for figure in known if (figure.quantity, figure.at) == (one.quantity, one.at)]
     by = [
         f"{in_its_unit(figure, quantities)} ({LABELS.get(figure.source, figure.source)})"
         for figure in same
         if figure.against is None
     ]
-    at = f" at friction {plain(deciding.friction)}" if len({f.friction for f in known}) > 1 else ""
+    at = f" at friction {plain(one.friction)}" if len({f.friction for f in known}) > 1 else ""
     said += " ".join(filter(None, (f"{meaning.label}{at}", ", ".join(by))))
-    if deciding.bounds is not None and deciding.against is None:
-        said += f" ({_allowed(deciding, meaning.unit)}: {deciding.verdict})"
-    differences = [f for f in (deciding, *same) if f.against is not None][:1]
+    if one.bounds is not None and one.against is None:
+        said += f" ({_allowed(one, meaning.unit)}: {one.verdict})"
+    differences = [f for f in (one, *same) if f.against is not None][:1]
     for figure in differences:
         pair = f", {_pair(figure)}" if len({f.against for f in same}) > 2 else ""
         said += f"{':' * bool(by)} {figure.words()}{pair}"
     return said + after
-
-
-def _alike(known: Sequence[Figure], one: Figure) -> list[Figure]:
-    """The same quantity at the same friction coefficient."""
-    return [figure for figure in known if (figure.quantity, figure.at) == (one.quantity, one.at)]
 
 
 def _in_order(figures: Sequence[Figure], quantities: Iterable[str]) -> list[Figure]:

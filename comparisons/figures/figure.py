@@ -23,7 +23,8 @@ Verdict = Literal["agree", "differ", "inconclusive", "holds", "fails"]
 
 AGREE = {True: "agree", False: "differ", None: "inconclusive"}  # with another's figure
 HOLD = {True: "holds", False: "fails", None: "inconclusive"}
-FAILED = ("differ", "fails")
+FAILED, PASSED = ("differ", "fails"), ("agree", "holds")
+WORST_FIRST = (*FAILED, "inconclusive", *PASSED)
 # An estimate that all models have alike: nothing holds within it, and it excuses no failure.
 SHARED = "trace_sampling"
 SMALL = 1.0 / 3.0  # of what is not modelled: a numerical uncertainty that hardly matters
@@ -226,6 +227,11 @@ class Figures(tuple[Figure, ...]):
 def nearest_to_tolerance(errors: Sequence[Figure]) -> Figure:
     """The judged one farthest outside, or nearest to, its tolerance, uncertainty included."""
     return max(errors, key=lambda error: error.reach / error.tolerance)
+
+
+def deciding(judged: Sequence[Figure]) -> Figure:
+    """Of those with the worst verdict the one farthest outside, or nearest to, its tolerance."""
+    return min(judged, key=lambda f: (WORST_FIRST.index(f.verdict), -f.reach / f.tolerance))
 
 
 @dataclass(frozen=True)

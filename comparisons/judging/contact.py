@@ -5,7 +5,6 @@ and what the levels took."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,15 +57,6 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             statements.append(Statement("no approach", why, name))
         series += _series(solved, name)
     return Findings(tuple(figures), tuple(series), tuple(statements))
-
-
-def pair_of(run: Run, difference: Figure) -> tuple[Figure | None, Figure | None]:
-    """What a difference is of: the figure of its source, by its study or else this one, and of its
-    reference; None of a norm."""
-    of = partial(run.figures.one, quantity=difference.quantity, at=difference.at, against=None)
-    own = of(study=difference.study, source=difference.source)
-    own = own or of(study=NAME, source=difference.source)
-    return own, of(study=NAME, source=difference.against)
 
 
 def no_approach(problem: Problem, model: str) -> str | None:

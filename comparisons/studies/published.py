@@ -12,7 +12,7 @@ import numpy as np
 
 from comparisons.common.numbers import percent
 from comparisons.common.tasks import Tasks
-from comparisons.drawing.blocks import Block, Note, TextTable, judged_cells
+from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
@@ -84,12 +84,12 @@ def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tu
         [judged] = [f for f in known if "judged" in f.notes] or [None]
         shown, cells = section.value, ("", "", "not known")
         if judged is not None:
-            *cells, _, verdict = judged_cells(judged)
+            off, verdict = judged.sized().split(" ± "), judged.verdict
             shown += f" ± {percent(section.spread)}" if section.scatter else ""
             if section.doubtful:
                 near = abs(judged.value) <= section.spread + judged.numerical
                 verdict = f"{'agree' if near else 'differ'}, doubtful"
-            cells.append(verdict)
+            cells = f"{off[0]} %", off[1], verdict
         rows.append((name, shown, *texts, *cells, section.note or ""))
     return rows
 
@@ -108,9 +108,13 @@ def blocks(run: Run) -> list[Block]:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """A line for each published figure."""
-    rows = table(run.problem.scene.published, run.figures)
-    return [("published", f"{row[0]} {row[1]}: {row[4]} ± {row[5]}, {row[6]}") for row in rows]
+    """A line for each published figure that is judged."""
+    known, said = run.figures.of(study=NAME), run.problem.scene.published
+    return [
+        ("published", f"{f.against} {said[f.against].value}: {f.words()}")
+        for f in known
+        if f.bounds is not None
+    ]
 
 
 STUDY = Study(

@@ -12,7 +12,7 @@ import numpy as np
 from analytic.contact.problem import ContactError
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Tasks, called
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.model_error.account import ErrorBudget, figure_of
@@ -73,12 +73,6 @@ def words_of(held: frozenset[str]) -> str:
     return f"{where} with {beside}" if beside else where
 
 
-def verdict_of(errors: Iterable[Figure]) -> str:
-    """Of all errors of a rung: holds where all do, fails where one does."""
-    verdicts = {figure.verdict for figure in errors}
-    return next(v for v in ("fails", "inconclusive", "holds") if v in verdicts)
-
-
 def may_suffice(errors: Iterable[Figure]) -> bool:
     """Whether no error of a rung fails, or is less certain than its tolerance."""
     return all(e.verdict != "fails" and e.total <= e.tolerance for e in errors)
@@ -98,7 +92,7 @@ class Rung:
 
     @property
     def verdict(self) -> str:
-        return verdict_of(self.figures)
+        return deciding(self.figures).verdict
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,16 @@ from math import isfinite
 
 from comparisons.common.numbers import percent, with_unit
 from comparisons.drawing.blocks import Block, Note, TextTable
-from comparisons.figures.figure import Figure, Figures
+from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
-from comparisons.judging.ladder.rungs import may_suffice, verdict_of
+from comparisons.judging.ladder.rungs import may_suffice
 from comparisons.judging.study import LADDER, Run
 
 RUNGS = "rungs"  # series: what each rung took
 # Statements: the cheapest rung that holds; why none does; the next one to try, and what it drops.
 SUFFICES, NONE, ESCALATE_TO, NEXT = "suffices", "none", "escalate to", "next"
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
-figure that is nearest to its tolerance or surely farthest beyond, with its uncertainty. A model
+figure that decides, nearest to its tolerance or farthest beyond, with its uncertainty. A model
 holds where every judged figure does. The last row is what is not known of the whole model itself.
 Time is that of all levels, of finite elements summed over cores; memory is the largest of the
 process."""
@@ -23,10 +23,10 @@ process."""
 def blocks(run: Run) -> list[Block]:
     rows = []
     for row, words, errors in _rungs(run):
-        worst = _nearest(errors)
+        worst = deciding(errors)
         size, unsure = error_text(worst.value, worst.total), percent(worst.total)
         memory = with_unit(row["peak_memory"], "byte", 2) if row["peak_memory"] else ""
-        judged = label(worst.quantity), size, unsure, verdict_of(errors)
+        judged = label(worst.quantity), size, unsure, worst.verdict
         rows.append((words, *judged, _time(row), memory))
     if not rows:
         return []
@@ -57,20 +57,10 @@ def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
     return [(row, row["model"], known.of(source=row["rung"], against=WHOLE)) for row in rows]
 
 
-def _nearest(errors: Sequence[Figure]) -> Figure:
-    """Of those that fail the one that surely is the farthest outside its tolerance, else the one
-    that may be, uncertainty included."""
-    failing = [error for error in errors if error.verdict == "fails"]
-    side = -1.0 if failing else 1.0
-    return max(failing or errors, key=lambda e: (abs(e.value) + side * e.total) / e.tolerance)
-
-
 def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
-    worst = _nearest(errors)
-    if not isfinite(worst.total):
-        return f"{words} ({_time(row)})"
-    error = f"{QUANTITIES[worst.quantity].short} {worst.sized(worst.total)}"
-    return f"{words} ({_time(row)}, {error})"
+    worst = deciding(errors)
+    error = f", {QUANTITIES[worst.quantity].short} {worst.sized(worst.total)}"
+    return f"{words} ({_time(row)}{error if isfinite(worst.total) else ''})"
 
 
 def _time(row: dict) -> str:

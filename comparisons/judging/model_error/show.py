@@ -20,7 +20,7 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.drawing import curves, style
-from comparisons.drawing.blocks import Block, Note, Pictures, TextTable, table_rows
+from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.tables import figure_table
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE, error_text, label
@@ -255,17 +255,20 @@ def waterfalls(run: Run) -> list[Waterfall]:
     """Of what is judged, or of everything; coefficients of equal figures together."""
     panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
     names = {error.quantity for error in run.model_errors or errors}
-    every = listed(run.problem.scene.load.friction)
+    shown = [e for name in QUANTITIES if name in names for e in errors.of(quantity=name)]
 
     def drawn_of(error: Figure) -> tuple:
         """What a panel shows of an error: equal ones have one."""
-        return error.value, tuple(part for part in error.parts if part.name in EFFECTS)
+        parts = tuple(part for part in error.parts if part.name in EFFECTS)
+        return error.quantity, error.value, parts
 
-    for row in table_rows(errors, [name for name in QUANTITIES if name in names], drawn_of):
-        at = "" if row.friction == every else f", μ = {row.friction}"
-        steps = contributions_of(row.figure)
-        steps = {NUMERICAL: row.figure.value - sum(steps.values()), **steps}
-        panels.append(Waterfall(label(row.quantity) + at, steps, row.figure))
+    for error, *same in grouped(shown, drawn_of):
+        frictions = tuple(figure.friction for figure in (error, *same))
+        is_every = frictions == tuple(run.problem.scene.load.friction)
+        at = "" if is_every else f", μ = {listed(frictions)}"
+        steps = contributions_of(error)
+        steps = {NUMERICAL: error.value - sum(steps.values()), **steps}
+        panels.append(Waterfall(label(error.quantity) + at, steps, error))
     return panels
 
 

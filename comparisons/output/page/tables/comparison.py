@@ -51,8 +51,9 @@ def capped(run: Run, difference: Figure) -> str:
     """That the hardness holds the peaks of both models, which makes them equal by itself."""
     if difference.against is None:
         return ""
-    models = contact.pair_of(run, difference)
-    return "capped in both" if all(f and "capped" in f.notes for f in models) else ""
+    values = run.figures.of(quantity=difference.quantity, at=difference.at, against=None)
+    held = {figure.source for figure in values if "capped" in figure.notes}
+    return "capped in both" if {difference.source, difference.against} <= held else ""
 
 
 def first_model(run: Run) -> str:
