@@ -27,7 +27,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.readings import stresses_at
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+    from pyvista import UnstructuredGrid
 
 SIGNIFICANT = 17  # bits of a number on a mesh of finite elements
 COMPONENTS = ("sx", "sz", "sy", "txz", "tau1", "von_mises")  # [Pa]
@@ -161,14 +161,8 @@ def _direction(stress: StressState) -> np.ndarray:
 
 def write_field(path: Path, field: FieldFile) -> None:
     """Write a vtu."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-    grid = vtk_grid(field)
-    for name, text in field.notes.items():
-        codes = numpy_to_vtk(np.frombuffer(text.encode(), dtype=np.uint8), deep=True)
-        codes.SetName(name)
-        grid.GetFieldData().AddArray(codes)
     writer = vtkXMLUnstructuredGridWriter()
     # In place: appended arrays meshio decodes as one base64 text with padding inside, which Python
     # refuses from 3.13.13 and 3.14.4 on. LZMA makes of rounded numbers a fifth less than zlib and
@@ -177,28 +171,21 @@ def write_field(path: Path, field: FieldFile) -> None:
     writer.SetCompressorTypeToZLib()
     writer.SetCompressionLevel(1)
     writer.SetFileName(os.fsencode(path))  # a name need not be UTF-8
-    writer.SetInputData(grid)
+    writer.SetInputData(vtk_grid(field))
     if not writer.Write():
         raise OSError(None, "VTK cannot write it", str(path))
 
 
-def vtk_grid(field: FieldFile) -> "vtkUnstructuredGrid":
-    """VTK's form of points, cells and arrays."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+def vtk_grid(field: FieldFile) -> "UnstructuredGrid":
+    """VTK's form of points, cells, arrays and notes."""
+    from pyvista import UnstructuredGrid
+    from vtkmodules.vtkCommonCore import vtkDataArray
 
-    points, cells, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
-    points.SetData(numpy_to_vtk(field.points, deep=True))
-    starts = np.arange(0, field.cells.size + 1, field.cells.shape[1])
-    kind = np.int32 if field.cells.size < 2**31 else np.int64
-    indices = (starts, field.cells.ravel())
-    cells.SetData(*(numpy_to_vtk(numbers.astype(kind), deep=True) for numbers in indices))
-    grid.SetPoints(points)
-    grid.SetCells(CELL_TYPES[field.cells.shape[1]], cells)
+    grid = UnstructuredGrid({CELL_TYPES[field.cells.shape[1]]: field.cells}, field.points)
     for name, values in field.arrays.items():
-        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-        array.SetName(name)
-        array.GetInformation().Set(vtkDataArray.UNITS_LABEL(), field.units[name])
-        grid.GetPointData().AddArray(array)
+        grid.point_data[name] = values
+        information = grid.GetPointData().GetArray(name).GetInformation()
+        information.Set(vtkDataArray.UNITS_LABEL(), field.units[name])
+    for name, text in field.notes.items():
+        grid.field_data[name] = np.frombuffer(text.encode(), dtype=np.uint8)
     return grid

@@ -81,7 +81,7 @@ class Plots:
         array = next((n for n in field.arrays if n.partition(" (")[0] == array), array)
         if array not in field.arrays:
             raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")
-        grid = pyvista.wrap(vtk_grid(field))
+        grid = vtk_grid(field)
         plotter = pyvista.Plotter()
         title = f"{array} [{field.units[array]}]"
         plotter.add_mesh(grid, scalars=array, cmap="cividis", scalar_bar_args={"title": title})
