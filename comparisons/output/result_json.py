@@ -139,35 +139,20 @@ def read_content(content: Mapping) -> Result:
 
 
 def _figure(figure: Figure) -> dict:
-    stated = figure.uncertainty
-    content = {
-        "study": figure.study,
-        "quantity": figure.quantity,
-        "source": figure.source,
-        "against": figure.against,
-        "at": dict(figure.at),
-        "value": figure.value,
+    content, stated = asdict(figure), figure.uncertainty
+    content |= {
         "unit": "" if figure.against else meaning(figure).unit,
-        "scale": figure.scale,
         "uncertainty": stated and {"total": stated.total, **stated.parts},
         "convergence": stated and stated.convergence and asdict(stated.convergence),
-        "bounds": figure.bounds,
         "verdict": figure.verdict,
-        "parts": {part.name: _part(part) for part in figure.parts},
-        "not_modelled": dict(figure.unknown),
-        "spread": figure.spread and asdict(figure.spread),
-        "place": figure.place,
-        "levels": figure.levels,
-        "notes": figure.notes,
+        "parts": {
+            part.pop("name"): {n: v for n, v in part.items() if v is not None and v is not False}
+            for part in content["parts"]
+        },
+        "not_modelled": content.pop("unknown"),
     }
     needed = ("study", "quantity", "source", "at", "value", "unit", "scale")
     return finite({n: v for n, v in content.items() if n in needed or v not in (None, {}, ())})
-
-
-def _part(part: Part) -> dict:
-    content = asdict(part)
-    del content["name"]
-    return {n: value for n, value in content.items() if value is not None and value is not False}
 
 
 def _named(study: str, item: Series | Statement) -> dict:

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
+from comparisons.common.numbers import Scale, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.curves import COINCIDE, FOOT, distinct, draw, over, panels
 from comparisons.drawing.field import SMALLEST_POWER
 from comparisons.figures.quantity import LABELS
 from comparisons.judging.contact import closed, draw_pressures, peak_position, seen
-from comparisons.judging.study import COMPARISON, Run
+from comparisons.judging.study import Run
 from comparisons.models.level import deformed_height
 from comparisons.models.problem import mean_height
 
@@ -56,7 +56,7 @@ def pressure_picture(run: Run) -> style.Picture:
         _drawn(run, across, style.WIDE, 5.2),
         f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
-        f"Largest pressure: {peaks}. {_norm(run)}"
+        f"Largest pressure: {peaks}. "
         "Heights are stretched and known but for a constant; in contact both surfaces coincide."
         f"{' They are drawn where contact was sought.' if short else ''}",
     )
@@ -85,17 +85,6 @@ def close_up_picture(run: Run) -> style.Picture:
         f"Around {place}, {at}: the pressures are piecewise linear between nodes "
         f"{with_unit(pitch, 'm', 3)} apart ({LABELS[name]}).",
     )
-
-
-def _norm(run: Run) -> str:
-    """How far the half-plane's pressures are from the finite elements'."""
-    friction = run.deciding_friction
-    norm = run.figures.one(study=COMPARISON, quantity="pressure_l2", friction=friction)
-    if norm is None:
-        return ""
-    said = f"{percent(norm.value, uncertainty=norm.numerical)} from the finite elements'"
-    at = f" at friction {plain(friction)}" if len(run.problem.scene.load.friction) > 1 else ""
-    return f"The half-plane's pressures differ by {said}{at} (relative L2 norm). "
 
 
 def _drawn(
