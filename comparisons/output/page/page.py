@@ -163,18 +163,14 @@ def _before(run: Run) -> Iterator[Block]:
     columns = Box("columns", (Box("sheet", picture), Box("sheet", (problem_items,))))
     yield Block("problem", (columns,), "Problem")
     if run.plan.compares:
-        note = Note(NOTES["comparison"] + _of_layered(run, "layered"))
-        yield Block("comparison", (comparison_table, note), "Comparison")
+        said, coating = NOTES["comparison"], run.problem.scene.coating
+        if first_model(run) != "half-plane":
+            said += NOTES["layered"].format("coating" if coating else "finite thickness")
+        yield Block("comparison", (comparison_table, Note(said)), "Comparison")
     else:
         yield Block("comparison", (comparison_table,), "Figures")
     beside = Pictures(("close_up", "surface"), abreast=True)
     yield Block("contact", (Pictures(("pressure",)), beside), "Contact")
-
-
-def _of_layered(run: Run, words: str) -> str:
-    """Which half-plane has the layers of the finite elements; empty where none is compared."""
-    body = "coating" if run.problem.scene.coating is not None else "finite thickness"
-    return NOTES[words].format(body) if first_model(run) != "half-plane" else ""
 
 
 def _stresses(run: Run) -> Iterator[Block]:
@@ -201,8 +197,7 @@ def _after(run: Run) -> Iterator[Block]:
     norms = "; those of a norm are on the norm's own scale" if run.plan.compares else ""
     far = NOTES["far_boundary"] if run.plan.domain_check else ""
     said = NOTES["levels"].format(far=far, norms=norms, refinement=run.solved.refinement)
-    note = Note(said + _of_layered(run, "layered_levels"))
-    items = Pictures(("convergence",)), verification.levels_tables, note, Heading("Words")
+    items = Pictures(("convergence",)), verification.levels_tables, Note(said), Heading("Words")
     yield Block("convergence", (*items, Names(verification.WORDS)), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
     skipped = tuple((item.step, item.because) for item in run.plan.skipped)

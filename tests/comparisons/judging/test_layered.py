@@ -3,9 +3,11 @@
 import pytest
 from scenes import STEEL, run_of
 
+from comparisons.common.numbers import percent
 from comparisons.drawing.blocks import Note
 from comparisons.output.page.page import sections
 from comparisons.output.page.tables.comparison import comparison_table, first_model
+from comparisons.output.page.tables.verification import levels_tables
 
 TABLES = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -51,4 +53,12 @@ def test_the_report_says_which_half_plane_has_the_coating(outcome):
         items = [item for one in made for item in (one if isinstance(one, list) else [one])]
         notes[block.section] = " ".join(item.text for item in items if isinstance(item, Note))
     assert "layered half-plane has the body's coating" in notes["comparison"]
-    assert "without the body's coating from finite" in " ".join(notes["convergence"].split())
+
+
+def test_levels_are_those_of_the_same_difference(outcome):
+    [*_, difference] = levels_tables(outcome)
+    rows = {row[0]: row for row in difference.rows}
+    [figure] = outcome.figures.of(
+        study="layered", quantity="peak_pressure", against="finite_element"
+    )
+    assert rows["peak pressure"][-1] == percent(figure.numerical)

@@ -10,7 +10,7 @@ from comparisons.common.numbers import plain
 from comparisons.drawing import curves, style
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS, QUANTITIES
-from comparisons.judging import comparison, contact
+from comparisons.judging import contact
 from comparisons.judging.study import Run
 from comparisons.output.page.tables.verification import row_name
 
@@ -33,7 +33,7 @@ def judged_figures(run: Run) -> dict[str, list[Figure]]:
     """Those of the models and of their difference, by quantity and friction coefficient."""
     panels: dict[str, list[Figure]] = {}
     judged = [name for name in QUANTITIES if name in run.problem.scene.tolerances]
-    known = [f for f in run.figures if f.study in (contact.NAME, comparison.NAME) and f.levels]
+    known = [f for f in (*run.figures.of(study=contact.NAME), *run.compared) if f.levels]
     known = [figure for figure in known if figure.quantity in judged]
     for figure in sorted(known, key=lambda f: (judged.index(f.quantity), f.friction)):
         if name := row_name(run, figure.quantity, figure.friction):

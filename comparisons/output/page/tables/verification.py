@@ -21,7 +21,7 @@ from comparisons.common.numbers import (
 from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import Names, TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import (
     COMPARED,
     HYPHENATED,
@@ -31,7 +31,7 @@ from comparisons.figures.quantity import (
     label,
 )
 from comparisons.figures.uncertainty import COVERAGE
-from comparisons.judging import comparison, contact
+from comparisons.judging import contact
 from comparisons.judging.study import Run
 from comparisons.models.level import ModelRun
 
@@ -51,20 +51,26 @@ WORDS = tuple((term, text.format(**_BOUNDS)) for term, text in WORDING["converge
 def levels_tables(run: Run) -> list[TextTable]:
     """Every figure over the levels, its limit, and the parts of its uncertainty: one table a model,
     which begins with how its levels were solved, and one for the difference."""
-    sources = [(contact.NAME, name, name) for name in run.runs]
+    tables = []
+    for name, model in run.runs.items():
+        figures = run.figures.of(study=contact.NAME, source=name)
+        tables.append(_levels_table(run, LABELS[name].capitalize(), model, figures, _solved(model)))
     if run.plan.compares:
-        sources.append((comparison.NAME, "half_plane", "finite_element"))
-    return [_levels_table(run, *source) for source in sources]
+        model, title = run.runs["finite_element"], "Difference of both models"
+        tables.append(_levels_table(run, title, model, run.compared))
+    return tables
 
 
-def _levels_table(run: Run, study: str, source: str, levels_of: str) -> TextTable:
-    model, is_model = run.runs[levels_of], study == contact.NAME
+def _levels_table(
+    run: Run, title: str, model: ModelRun, figures: Figures, before: Sequence[tuple[str, ...]] = ()
+) -> TextTable:
+    """Figures on the levels of a model, below rows of texts on each level."""
     has = {"domain": model.far_boundary_check, "increments": model.longer_increments}
     parts = [name for name in PARTS if has.get(name, True)]
     head = ("", *(f"level {k + 1}" for k in range(len(model.levels))), "extrapolated", "order")
     head += (*(PARTS[name] for name in parts), "total")
-    rows = [row + ("",) * (len(head) - len(row)) for row in _solved(model)] if is_model else []
-    for figure in run.figures.of(study=study, source=source):
+    rows = [row + ("",) * (len(head) - len(row)) for row in before]
+    for figure in figures:
         if not (figure.levels and (name := row_name(run, figure.quantity, figure.friction))):
             continue
         known, stated = figure.uncertainty.convergence, figure.uncertainty.parts
@@ -73,7 +79,6 @@ def _levels_table(run: Run, study: str, source: str, levels_of: str) -> TextTabl
             sizes[0] += f"\nfactor {plain(known.safety_factor)}"
         texts = *_texts(figure, (*figure.levels, known.limit)), _order(known), *sizes
         rows.append((name, *texts, percent(figure.numerical)))
-    title = LABELS[source].capitalize() if is_model else "Difference of both models"
     return TextTable(title, head, tuple(rows))
 
 

@@ -16,7 +16,7 @@ def test_each_judged_figure_says_how_it_converged(wavy_outcome: Run):
         table, run = tables[model], wavy_outcome.runs[name]
         rows = {row[0]: dict(zip(table.head, row, strict=True)) for row in table.rows}
         assert len(rows) == len(table.rows)
-        stated = judged(run, problem)
+        stated = {n: figure.uncertainty for n, figure in judged(run, problem).items()}
         for quantity in ("peak_pressure", "contact_length"):
             row, known = rows[label(quantity)], stated[quantity].convergence
             observed, formal = row["order"].split("\nformal ")
