@@ -9,7 +9,7 @@ from math import inf
 from typing import Literal
 
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, deciding
 from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import FLOW
@@ -17,7 +17,7 @@ from comparisons.judging.model_error.account import INTERACTION
 from comparisons.judging.model_error.show import flow_taken
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.next_step import next_of, pasted
-from comparisons.judging.verdict.within import Within, deciding, name_of, size_of, within_of
+from comparisons.judging.verdict.within import Within, name_of, size_of, within_of
 from comparisons.models.assumptions import WITHIN_LINEAR, laws, without_law
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -72,7 +72,7 @@ def _sentence(run: Run, kind: Kind, within: Within) -> str:
         return _one_model(run)
     if run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
         return FLOWS
-    error = deciding(run, kind) if run.model_errors else None
+    error = deciding(run.model_errors) if run.model_errors else None
     said = "nothing is judged" if error is None else _decided(run, kind, within, error)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
     asked = f", {WITHIN_LINEAR}" if run.problem.scene.linear else ""

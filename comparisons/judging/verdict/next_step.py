@@ -13,7 +13,7 @@ from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import percent_as_written, with_unit
 from comparisons.common.progress import machine_memory
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS, contained
@@ -23,7 +23,7 @@ from comparisons.judging.effects.selection import FLOW, why_not
 from comparisons.judging.model_error.account import INPUTS
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.whole import figures_of_whole
-from comparisons.judging.verdict.within import deciding, rounded_up
+from comparisons.judging.verdict.within import rounded_up
 from comparisons.models.forecast import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import TABOR
@@ -135,7 +135,7 @@ def _candidates(run: Run, kind: str) -> Iterator[Offer]:
     elif not run.model_errors:
         yield Offer("a tolerance to judge by, such as tolerance.peak_pressure = 0.02")
     elif kind == "inconclusive":
-        yield from _of_open(run, deciding(run, kind))
+        yield from _of_open(run, deciding(run.model_errors))
     else:
         if unknown := yielding.may_flow(run, at_any=kind == "fails"):
             stress, said, is_known = _typical_stress(run)

@@ -12,7 +12,7 @@ from decimal import ROUND_CEILING, Decimal
 from math import hypot, isfinite
 
 from comparisons.common.numbers import percent, percent_as_written, plain, with_unit
-from comparisons.figures.figure import Figure, nearest_to_tolerance
+from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
 from comparisons.judging import coupling, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
@@ -62,12 +62,6 @@ def within_of(run: Run) -> Within:
         what = f"the effect of {EFFECTS[effect].label} on the {name_of(run, largest)}"
         what += f" ({why})" if why else ""
     return Within(None, largest, what, asked)
-
-
-def deciding(run: Run, verdict: str) -> Figure:
-    """The judged error that decides on a verdict that any has: of those that have it the farthest
-    outside, or nearest to, its tolerance."""
-    return nearest_to_tolerance([error for error in run.model_errors if error.verdict == verdict])
 
 
 def rounded_up(size: float) -> float:
