@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from comparisons.figures.figure import Figure
+    from comparisons.figures.figure import Figure, Part
     from comparisons.judging.study import Run
     from comparisons.models.level import Level, ModelRun
     from comparisons.models.problem import Levels, Problem
@@ -242,7 +242,7 @@ def unconverged(run: "Run", model: str) -> "Run":
 
 def budgeted(run: "Run", budget: object) -> "Run":
     """A finished run whose model errors are those of another error budget."""
-    from comparisons.judging.model_error.account import NAME, findings_of
+    from comparisons.judging.model_error.study import NAME, findings_of
 
     findings = findings_of(budget, run.problem)
     return replace(run, findings={**run.findings, NAME: findings})
@@ -255,6 +255,7 @@ def judged(
     not_modelled: dict[str, float] | None = None,
     tolerance: float = 0.02,
     friction: float = 0.0,
+    parts: tuple["Part", ...] = (),
 ) -> "Figure":
     """A model error of the half-plane; all sizes relative."""
     from comparisons.figures.figure import Figure
@@ -270,4 +271,5 @@ def judged(
         uncertainty=Uncertainty({"numerical": uncertainty}),
         unknown=not_modelled or {},
         bounds=(-tolerance, tolerance),
+        parts=parts,
     )

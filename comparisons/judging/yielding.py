@@ -24,9 +24,9 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.contact import AT_HARDNESS
 from comparisons.judging.effects.estimates import BOTH_CRITERIA, STIFF, flow_of, typical_shears
 from comparisons.judging.effects.selection import FLOW
-from comparisons.judging.model_error.account import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import MODEL_ERROR, Case, Run, Solved, Study
+from comparisons.models.level import Level
 from comparisons.models.problem import TABOR, Problem
 from comparisons.scenes.scene import Scene
 
@@ -201,17 +201,17 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
             figures += figures_of(NAME, "scene", limits, None, at)
         said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
-        figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data)
+        figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data.wholes)
     at_such = flows_at_such(solved.problem.scene, flow)
     flows = {BEYOND_DOUBT: flow.beyond_doubt, AT_SUCH_STRESSES: at_such}
     said += [Statement(name, text, source) for name, text in flows.items() if text]
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 
-def _figures_of_flow(problem: Problem, budget: ErrorBudget) -> list[Figure]:
+def _figures_of_flow(problem: Problem, wholes: tuple[Level, ...]) -> list[Figure]:
     """How far the whole model flows, and over what slopes."""
     figures, info = [], problem.surface.info
-    for friction, level in zip(problem.scene.load.friction, budget.wholes, strict=False):
+    for friction, level in zip(problem.scene.load.friction, wholes, strict=False):
         strain = level.plastic_strain
         if strain is not None:
             slope = 0.5 * level.extent / problem.scene.roller.radius  # of the roller, at the edges

@@ -15,12 +15,12 @@ from comparisons.judging.effects.laws import OpenLaw, open_laws
 from comparisons.models.problem import COUPLED, Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
-FLOW = "plastic_flow"
+FINITE, FLOW = "finite_strain", "plastic_flow"
 SMALL_STRAINS = "flow is taken at small strains"
 ITS_OWN_LAW = "a body that flows has Hencky's law of elasticity"
 ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
-NONLINEAR = ("finite_strain", FLOW)
+NONLINEAR = (FINITE, FLOW)
 ORDER = (
     "exact_circle",
     "coating",
@@ -54,15 +54,15 @@ class EffectSelection:
         """The same without some of the added effects, for a reason; other laws of elasticity take
         finite deformation."""
         added, laws = self.added - names, self.laws
-        if laws and (LAW in names or "finite_strain" not in self.contained | added):
+        if laws and (LAW in names or FINITE not in self.contained | added):
             names, laws = names | {LAW}, ()
         impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
         return replace(self, added=added, impossible=impossible, laws=laws)
 
     def flowing_finitely(self) -> "EffectSelection":
         """The same with finite strain of what flows, which could not be computed before."""
-        impossible = {name: why for name, why in self.impossible.items() if name != "finite_strain"}
-        return replace(self, added=self.added | {"finite_strain"}, impossible=impossible)
+        impossible = {name: why for name, why in self.impossible.items() if name != FINITE}
+        return replace(self, added=self.added | {FINITE}, impossible=impossible)
 
     def estimated(
         self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
@@ -81,6 +81,24 @@ class EffectSelection:
             return mine
         impossible = {other: why for other, why in self.impossible.items() if other != name}
         return replace(mine, impossible=impossible, negligible=self.negligible | {name: sizes})
+
+    def account(self, name: str) -> tuple[str, str]:
+        """What became of an effect, and why."""
+        if name in self.contained:
+            return "contained", "the scene's own finite elements have it"
+        if name == LAW and self.laws:
+            return "computed", "; ".join(law.words for law in self.laws)
+        if name in self.added:
+            return "computed", "its estimate exceeds a tenth of a tolerance"
+        if name in self.impossible:
+            return "not computed", self.impossible[name]
+        if name in self.found:
+            return "negligible", "it was computed, and moves no figure by a tenth of its tolerance"
+        if name in self.negligible:
+            return "negligible", "its estimate is below a tenth of every tolerance"
+        if name == COUPLED and name in self.estimates:  # with friction, it cannot be without
+            return "contained", f"it is a part of {EFFECTS[FINITE].label}"
+        return "does not apply", "it does not apply, or has no size"
 
     def not_modelled(self, quantity: str) -> Sizes:
         """By name, estimates of the effects on a quantity that no model has."""
@@ -117,11 +135,11 @@ def select_effects(
     flows = FLOW in own_effects
     flows = flows or (FLOW in mattering and not (why_not(FLOW, problem) or no_time))
     if LAW in mattering and not flows:  # it shows in finite deformation alone
-        mattering.add("finite_strain")
+        mattering.add(FINITE)
     can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
     laws = open_laws(problem.scene) if can_be_solved else ()
     for name, sizes in sized.items():
-        if name in own_effects or (name == LAW and laws and "finite_strain" in own_effects):
+        if name in own_effects or (name == LAW and laws and FINITE in own_effects):
             continue
         why = why_not(name, problem, flows) or (no_time if name == FLOW else None)
         if name not in mattering:
@@ -163,6 +181,6 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
         reasons = {
             unknown: scene.body.yield_stress is None,
             "it takes no prescribed approach": scene.load.kind == "approach",
-            'it takes finite_element.deformation = "linear"': "finite_strain" in contained(scene),
+            'it takes finite_element.deformation = "linear"': FINITE in contained(scene),
         }
     return next((why for why, hindered in reasons.items() if hindered), None)

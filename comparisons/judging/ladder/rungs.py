@@ -3,8 +3,9 @@
 In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
 is a closed form; every other rung is what the run has solved for its verdict."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -12,12 +13,12 @@ import numpy as np
 from analytic.contact.problem import ContactError
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Tasks, called
-from comparisons.figures.figure import Figure, deciding
+from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.model_error.account import ErrorBudget, figure_of
-from comparisons.judging.model_error.model_error import ModelError, Solutions
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.effects.selection import FINITE, FLOW, NONLINEAR
+from comparisons.judging.model_error.model_error import Solutions, figure_of
+from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
@@ -34,19 +35,15 @@ from comparisons.models.smooth import closed_form
 from comparisons.models.window import Window
 
 HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
-LINEAR, FINITE, FLOW = "linear", "finite", "flow"
+ANALYTIC = HERTZ, HALF_PLANE, OPERATORS, DEFORMED
 OTHER = MODELS[1]  # the finite elements of the scene
-# Kinds of rungs, from the cheapest on.
-KINDS = {
-    HERTZ: "Hertz's closed form",
-    HALF_PLANE: "half-plane",
-    OPERATORS: "half-plane with what an operator carries",
-    DEFORMED: "half-plane on the deformed surface",
-    LINEAR: "linear finite elements",
+# Finite elements by the dearest effect that they have, from the cheapest on.
+ELEMENTS = {
+    "": "linear finite elements",
     FINITE: "finite deformation",
     FLOW: "elastic-plastic finite elements",
-    WHOLE: "whole model",
 }
+ORDER = (*ANALYTIC, *ELEMENTS, WHOLE)  # of rungs
 WORDS = {
     "finite_size": "layer",
     "coating": "coating",
@@ -54,7 +51,8 @@ WORDS = {
     "exact_circle": "exact circle",
     CAP: f"pressures up to {TABOR:g} Y",
 }
-NONLINEAR = {"finite_strain": FINITE, "plastic_flow": FLOW}  # kinds by effect; others are linear
+# Of a quantity, by its row of the models' comparison, at one friction coefficient.
+Error = Callable[[Solutions, Figure], Figure]
 
 
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
@@ -83,164 +81,139 @@ class Rung:
     """One model and its errors in what the scene judges."""
 
     name: str  # source of its figures
-    kind: str  # of KINDS
+    effects: frozenset[str]  # that it has beside the half-plane's assumptions
     words: str
-    figures: tuple[Figure, ...]  # (rung - whole) / whole
     seconds: float
     memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
-    effects: frozenset[str] = frozenset()  # that it has beside the half-plane's assumptions
+    figures: tuple[Figure, ...]  # (rung - whole) / whole
 
     @property
     def verdict(self) -> str:
         return deciding(self.figures).verdict
 
-
-@dataclass(frozen=True)
-class Ladder:
-    """What the rungs of one scene are made of."""
-
-    solved: Solved
-    budget: ErrorBudget
-    tasks: Tasks  # that solve what only the ladder asks for
-    compared: tuple[Figure, ...]  # the models' comparison, those that are judged
-    flow: FlowAssessment
-
-    def rungs(self) -> list[Rung]:
-        """From the cheapest to the whole."""
-        made = [self._hertz(), self._half_plane(), *self._effects(), self._own(), self._whole()]
-        made = [rung for rung in made if rung is not None]
-        by_half_plane = HERTZ, HALF_PLANE, OPERATORS
-        for make in (self._operators, self._deformed):
-            if any(rung.verdict == "holds" for rung in made if rung.kind in by_half_plane):
-                break
-            made += [rung for rung in [make(made)] if rung is not None]
-        order = list(KINDS)
-        return sorted(made, key=lambda rung: order.index(rung.kind))
-
     @property
-    def flows(self) -> str:
-        """That the body flows beyond doubt, and no model of the run does: nothing can suffice."""
-        return "" if "plastic_flow" in self.budget.selection.whole else self.flow.beyond_doubt
+    def place(self) -> int:
+        """In the order of rungs."""
+        return ORDER.index(self.name if self.name in ORDER else _dearest(self.effects))
 
-    def _operators(self, made: list[Rung]) -> Rung | None:
-        """Solved here, where it has anything that the half-plane has not and could be the answer:
-        the same effects in finite elements are not refuted."""
-        problem, window, selection = self.solved.problem, self.solved.window, self.budget.selection
-        held = carried(problem, selection.whole, self.flow)
-        same = [rung for rung in made if rung.effects == held]
-        refuted = self.flows or any(rung.verdict == "fails" for rung in same)
-        if not held or refuted or why_no_stresses(problem, window) is not None:
-            return None
-        return self._by_half_plane(OPERATORS, held)
 
-    def _deformed(self, made: list[Rung]) -> Rung | None:
-        """Where the whole deforms finitely, and does not flow."""
-        held = carried_deformed(self.solved.problem, self.budget.selection.whole)
-        flows = self.flows or "plastic_flow" in self.budget.selection.whole
-        return self._by_half_plane(DEFORMED, held) if held and not flows else None
+def rungs(
+    solved: Solved,
+    budget: ErrorBudget,
+    compared: Iterable[Figure],
+    flow: FlowAssessment,
+    tasks: Tasks,
+) -> list[Rung]:
+    """Every model, from the cheapest to the whole.
 
-    def _by_half_plane(self, name: str, held: frozenset[str]) -> Rung | None:
-        """The half-plane with some of the effects, on the finite elements' pressure elements."""
-        runs = operator_runs(self.solved, held, self.tasks)
-        if runs is None:
-            return None
-        every = self.budget.solutions
-        errors = [e for one in every for e in self._errors(one, runs[one.case.friction])]
-        figures = self._figures(name, errors)
-        run = next(iter(runs.values()))  # which took what all took together
-        return replace(_rung_of(run, name, words_of(held), figures), effects=held)
+    compared  rows of the models' comparison, those that are judged
+    tasks     that solve what only the ladder asks for: half-planes with some of the effects, where
+              nothing cheaper holds, and the same effects in finite elements are not refuted"""
+    rung, problem = partial(_judged, budget, tuple(compared)), solved.problem
+    made, effects = list(_solved(solved, budget, rung)), budget.selection.whole
+    flows = bool(nothing_suffices(budget, flow))
+    linear = frozenset() if flows else carried(problem, effects, flow)
+    if any(one.verdict == "fails" for one in made if one.effects == linear):
+        linear = frozenset()
+    deformed = () if flows or FLOW in effects else carried_deformed(problem, effects)
+    possible = why_no_stresses(problem, solved.window) is None
+    for name, held in ((OPERATORS, linear if possible else ()), (DEFORMED, deformed)):
+        if any(one.verdict == "holds" for one in made if one.name in ANALYTIC):
+            break
+        runs = operator_runs(solved, held, tasks) if held else None
+        if runs is not None:
+            took = _took(next(iter(runs.values())))  # what all took together
+            made.append(rung(name, held, words_of(held), took, _against(budget, runs)))
+    return sorted(made, key=lambda one: one.place)
 
-    def _errors(self, solutions: Solutions, run: ModelRun) -> list[ModelError]:
-        """Errors against the whole of a model that was solved on the half-plane's pressures."""
-        case = solutions.case
-        rows = judged(run, case.problem, case.runs[OTHER])
-        runs = {"half_plane": run, OTHER: case.runs[OTHER]}
-        solutions = replace(solutions, case=replace(case, runs=runs))
-        return [solutions.error(rows[row.quantity]) for row in self._rows(case)]
 
-    def _figures(self, name: str, errors: Iterable[ModelError]) -> tuple[Figure, ...]:
-        """Model errors as figures of a rung."""
-        tolerances = self.solved.problem.scene.tolerances
-        judged = (figure_of(error, self.budget.selection, tolerances) for error in errors)
-        rung = {"study": LADDER, "source": name, "parts": (), "place": None}
-        return tuple(replace(figure, **rung) for figure in judged)
+def nothing_suffices(budget: ErrorBudget, flow: FlowAssessment) -> str:
+    """That the body flows beyond doubt, and no model of the run does."""
+    return "" if FLOW in budget.selection.whole else flow.beyond_doubt
 
-    def _hertz(self) -> Rung | None:
-        if (smooth := closed_form(self.solved.problem)) is None:
-            return None
-        began, problem, window = perf_counter(), self.solved.problem, self.solved.window
-        errors = []
-        for solutions in self.budget.solutions:
-            exact = hertz_quantities(problem, solutions.case.friction, window)
-            stated = judged(solutions.runs[OTHER], problem)
-            errors += [
-                solutions.of_exact(row.quantity, exact, stated[row.quantity].numerical)
-                for row in self._rows(solutions.case)
-            ]
-        seconds = perf_counter() - began
-        figures = self._figures(HERTZ, errors)
-        return Rung(HERTZ, HERTZ, f"{smooth.name}'s closed form", figures, seconds, 0.0)
 
-    def _half_plane(self) -> Rung:
-        run = self.solved.runs["half_plane"]
-        errors = [self.budget.of(row.quantity, row.friction) for row in self.compared]
-        return _rung_of(run, HALF_PLANE, KINDS[HALF_PLANE], self._figures(HALF_PLANE, errors))
+def _solved(solved: Solved, budget: ErrorBudget, rung: Callable[..., Rung]) -> Iterator[Rung]:
+    """What the run has for its verdict, and a closed form."""
+    selection, every, none = budget.selection, budget.solutions, frozenset()
+    if (smooth := closed_form(solved.problem)) is not None:
+        began = perf_counter()
+        exact = {case.friction: _closed_form(case, solved.window) for case in solved.cases}
+        took = perf_counter() - began, 0.0
 
-    def _effects(self) -> Iterator[Rung]:
-        """Finite elements with one effect each, where they are neither the whole nor the scene's
-        own."""
-        every = self.budget.solutions
-        for name in dict.fromkeys(name for solutions in every for name in solutions.effects):
-            kind = NONLINEAR.get(name, LINEAR)
-            levels = [level for solutions in every for level in solutions.split_levels]
-            pairs = [(level.pairs[name][0], level.whole) for level in levels if name in level.pairs]
-            is_whole = all(with_it is whole for with_it, whole in pairs)
-            if self.budget.selection.contained == {name} or is_whole:
-                continue
-            errors = []
-            for solutions in every:
+        def of_hertz(one: Solutions, row: Figure) -> Figure:
+            return one.of_exact(row.quantity, exact[row.friction][row.quantity])
+
+        yield rung(HERTZ, none, f"{smooth.name}'s closed form", took, of_hertz)
+    known = Figures(budget.model_errors)
+
+    def of_half_plane(one: Solutions, row: Figure) -> Figure:
+        return known.one(quantity=row.quantity, friction=row.friction)
+
+    yield rung(HALF_PLANE, none, "half-plane", _took(solved.runs[HALF_PLANE]), of_half_plane)
+    own = selection.contained
+    for name in dict.fromkeys(name for one in every for name in one.effects):
+        levels = [level for one in every for level in one.split_levels if name in level.pairs]
+        is_whole = all(level.pairs[name][0] is level.whole for level in levels)
+        if own != {name} and not is_whole:
+
+            def of_effect(one: Solutions, row: Figure, name: str = name) -> Figure:
                 # with the effect, or where it does nothing, without any
-                levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in solutions.split_levels]
-                rows = self._rows(solutions.case)
-                errors += [solutions.of_variants(row.quantity, levels) for row in rows]
-            words = f"{KINDS[kind]} alone"
-            if kind == LINEAR:
-                words = f"finite elements with {EFFECTS[name].label}"
-            figures = self._figures(name, errors)
-            yield Rung(name, kind, words, figures, *self.budget.took[name], frozenset({name}))
+                levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in one.split_levels]
+                return one.of_levels(row.quantity, levels)
 
-    def _own(self) -> Rung | None:
-        """The scene's own finite elements, where they have effects and are not the whole."""
-        contained, every = self.budget.selection.contained, self.budget.solutions
-        lacking = (solutions.missing[-1].figures.values() for solutions in every)
-        if not contained or not any(np.any(change) for figures in lacking for change in figures):
-            return None
-        kind = kind_of(contained)
-        errors = [
-            solutions.of_variants(row.quantity, [level.of_scene for level in solutions.history])
-            for solutions in every
-            for row in self._rows(solutions.case)
-        ]
-        run, words = self.solved.runs[OTHER], words_of_kind(contained)
-        rung = _rung_of(run, OTHER, words, self._figures(OTHER, errors), kind)
-        return replace(rung, effects=contained)
+            words = f"finite elements with {EFFECTS[name].label}"
+            words = f"{ELEMENTS[name]} alone" if name in ELEMENTS else words
+            yield rung(name, frozenset({name}), words, budget.took[name], of_effect)
+    lacking = (change for one in every for change in one.missing[-1].figures.values())
+    if own and any(map(np.any, lacking)):
 
-    def _whole(self) -> Rung:
-        """What is not known of the reference itself."""
-        run, errors = self.solved.runs[OTHER], []
-        for solutions in self.budget.solutions:
-            stated = judged(solutions.runs[OTHER], solutions.problem)
-            errors += [
-                solutions.of_whole(row.quantity, stated[row.quantity].numerical)
-                for row in self._rows(solutions.case)
-            ]
-        inside = words_of_kind(self.budget.selection.whole)
-        rung = _rung_of(run, WHOLE, f"whole model: {inside}", self._figures(WHOLE, errors))
-        seconds, memory = self.budget.took.get(WHOLE, (0.0, 0))
-        return replace(rung, seconds=rung.seconds + seconds, memory=max(rung.memory, memory))
+        def of_own(one: Solutions, row: Figure) -> Figure:
+            return one.of_levels(row.quantity, [level.of_scene for level in one.history])
 
-    def _rows(self, case: Case) -> list[Figure]:
-        return [row for row in self.compared if row.friction == case.friction]
+        yield rung(OTHER, own, _words_of_elements(own), _took(solved.runs[OTHER]), of_own)
+    seconds, memory = _took(solved.runs[OTHER])
+    more, most = budget.took.get(WHOLE, (0.0, 0))
+    words, took = _words_of_elements(selection.whole), (seconds + more, max(memory, most))
+
+    def of_whole(one: Solutions, row: Figure) -> Figure:
+        return one.of_exact(row.quantity)
+
+    yield rung(WHOLE, selection.whole, f"whole model: {words}", took, of_whole)
+
+
+def _against(budget: ErrorBudget, runs: dict[float, ModelRun]) -> Error:
+    """Errors of a model that was solved on the pressure elements of the finite elements."""
+    known = {}
+    for one in budget.solutions:
+        run, elements = runs[one.case.friction], one.case.runs[OTHER]
+        case = replace(one.case, runs={HALF_PLANE: run, OTHER: elements})
+        rows = judged(run, case.problem, elements)
+        known[case.friction] = replace(one, case=case), rows
+
+    def error(one: Solutions, row: Figure) -> Figure:
+        solutions, rows = known[row.friction]
+        return solutions.error(rows[row.quantity])
+
+    return error
+
+
+def _judged(
+    budget: ErrorBudget,
+    compared: tuple[Figure, ...],
+    name: str,
+    effects: frozenset[str],
+    words: str,
+    took: tuple[float, float],
+    error: Error,
+) -> Rung:
+    """A rung by its errors; `took` seconds, and memory [bytes]."""
+    pairs = [(o, row) for o in budget.solutions for row in compared if row.at == o.case.at]
+    errors = (
+        figure_of(error(one, row), budget.selection, {row.quantity: row.tolerance})
+        for one, row in pairs
+    )
+    mine = {"study": LADDER, "source": name, "parts": (), "place": None}
+    return Rung(name, effects, words, *took, tuple(replace(figure, **mine) for figure in errors))
 
 
 def announce_operators(
@@ -277,35 +250,30 @@ def operator_runs(
     return {mu: ModelRun(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
 
 
-def hertz_quantities(
-    problem: Problem, friction: float, window: Window | None
-) -> QuantitiesOfInterest:
-    """The smooth contact's closed form, where it has one; largest stresses with a window."""
-    smooth = closed_form(problem)
+def _closed_form(case: Case, window: Window | None) -> dict[str, float]:
+    """The smooth contact's figures [SI]; largest stresses with a window."""
+    smooth = closed_form(case.problem)
     values = {"peak_pressure": smooth.peak_pressure, "contact_length": smooth.contact_length}
     if window is not None:
-        largest = smooth.extremes(friction)
+        largest = smooth.extremes(case.friction)
         values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
         values["txz_max_abs"] = abs(largest["txz"].value)
-    return QuantitiesOfInterest({name: np.array([value]) for name, value in values.items()})
+    return values
 
 
-def _rung_of(
-    run: ModelRun, name: str, words: str, figures: tuple[Figure, ...], kind: str = ""
-) -> Rung:
-    """With what a model of the run took."""
-    memory = max(level.peak_memory for level in run.levels)
-    return Rung(name, kind or name, words, figures, sum(run.seconds.values()), memory)
+def _took(run: ModelRun) -> tuple[float, float]:
+    """Seconds of a model's levels, and the largest memory of their processes [bytes]."""
+    return sum(run.seconds.values()), max(level.peak_memory for level in run.levels)
 
 
-def kind_of(effects: Iterable[str]) -> str:
-    kinds = {NONLINEAR.get(name, LINEAR) for name in effects}
-    return next(kind for kind in (FLOW, FINITE, LINEAR) if kind in kinds or kind == LINEAR)
+def _dearest(effects: Iterable[str]) -> str:
+    """The effect that says what kind of finite elements these are, of ELEMENTS."""
+    return next((name for name in (FLOW, FINITE) if name in effects), "")
 
 
-def words_of_kind(effects: Iterable[str]) -> str:
+def _words_of_elements(effects: Iterable[str]) -> str:
     """The kind of finite elements that have the effects, and the linear ones beside it."""
-    kind, is_finite = kind_of(effects), "finite_strain" in effects
-    beside = [EFFECTS[name].label for name in EFFECTS if name in effects and name not in NONLINEAR]
-    words = f"{KINDS[kind]} at finite deformation" if is_finite and kind == FLOW else KINDS[kind]
-    return f"{words} with {', '.join(beside)}" if beside else words
+    kind, beside = _dearest(effects), set(effects) - set(NONLINEAR)
+    words = ELEMENTS[kind] + " at finite deformation" * (kind == FLOW and FINITE in effects)
+    beside = ", ".join(EFFECTS[name].label for name in EFFECTS if name in beside)
+    return f"{words} with {beside}" if beside else words

@@ -13,10 +13,11 @@ from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import show
 from comparisons.judging.ladder.rungs import (
     HALF_PLANE,
-    Ladder,
     Rung,
     announce_operators,
     may_suffice,
+    nothing_suffices,
+    rungs,
 )
 from comparisons.judging.model_error.error_budget import selected_effects
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
@@ -42,17 +43,20 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
     compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
-    ladder = Ladder(solved, budget, tasks, tuple(compared), flow)
-    rungs = ladder.rungs()
-    figures = tuple(figure for rung in rungs for figure in rung.figures)
+    made = rungs(solved, budget, compared, flow, tasks)
+    figures = tuple(figure for rung in made for figure in rung.figures)
     columns = {
-        "rung": Column(tuple(rung.name for rung in rungs)),
-        "model": Column(tuple(rung.words for rung in rungs)),
-        "seconds": Column(tuple(rung.seconds for rung in rungs), "s"),
-        "peak_memory": Column(tuple(rung.memory for rung in rungs), "byte"),
+        "rung": Column(tuple(rung.name for rung in made)),
+        "model": Column(tuple(rung.words for rung in made)),
+        "seconds": Column(tuple(rung.seconds for rung in made), "s"),
+        "peak_memory": Column(tuple(rung.memory for rung in made), "byte"),
     }
     series = (Series(show.RUNGS, columns, is_account=True),)
-    return Findings(figures, series, tuple(_statements(rungs, before[MODEL_ERROR], ladder.flows)))
+    return Findings(
+        figures,
+        series,
+        tuple(_statements(made, before[MODEL_ERROR], nothing_suffices(budget, flow))),
+    )
 
 
 def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Statement]:

@@ -18,8 +18,10 @@ from functools import reduce
 from operator import sub
 
 from comparisons.judging.effects.catalogue import STRAINED, ModelVariant
-from comparisons.judging.effects.selection import NONLINEAR, ORDER, EffectSelection
+from comparisons.judging.effects.laws import law_variants
+from comparisons.judging.effects.selection import FLOW, NONLINEAR, ORDER, EffectSelection
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.models.plan import LONGER
 from comparisons.models.problem import COUPLED, Problem
 
 OF_SIZE = ("finite_size", "finite_roller")  # effects that a far boundary has, too
@@ -44,6 +46,11 @@ class SplitVariants:
     of_scene: ModelVariant | None  # that stands for the scene's own finite elements, None: these
     nothing: ModelVariant  # without any effect
     pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
+    laws: dict[tuple[int, str], ModelVariant]  # the whole with other laws of elasticity
+    # the whole at small strains, where increments are the same as at finite ones, by longer
+    # increments of flow, the longest first, and by its own; none where the scene's own finite
+    # elements flow, or the whole does not
+    increments: tuple[ModelVariant, ...]
 
     @property
     def wholes(self) -> tuple[ModelVariant, ...]:
@@ -61,6 +68,11 @@ class SplitVariants:
         """Each once, the whole first."""
         of_pairs = (variant for pair in self.pairs.values() for variant in pair)
         return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
+
+    @property
+    def checks(self) -> tuple[ModelVariant, ...]:
+        """Those that are solved on the coarsest level alone."""
+        return (*self.laws.values(), *self.increments, *self.held_nearer.values())
 
 
 @dataclass(frozen=True)
@@ -113,7 +125,12 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
     of_scene = None
     if quadratic:
         of_scene = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
-    return SplitVariants(variant(grown(chosen)), of_scene, variant(nothing), pairs)
+    whole, increments = variant(grown(chosen)), ()
+    if FLOW in selection.added:
+        small = pairs["finite_strain"][1] if chosen.issuperset(NONLINEAR) else whole
+        increments = (*(replace(small, times=times) for times in LONGER), small)
+    laws = law_variants(whole, selection.laws)
+    return SplitVariants(whole, of_scene, variant(nothing), pairs, laws, increments)
 
 
 def contributions_of(

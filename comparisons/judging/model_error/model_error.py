@@ -8,21 +8,24 @@ in the end: an effect is what changes at that asperity. Where the half-plane has
 value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Part
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import (
+    Uncertainty,
     difference_of_figures,
     far_boundary,
     iteration,
     of_increments,
 )
+from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.laws import LawSolutions, LawSpread
+from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.contributions import OF_SIZE, EffectContributions
 from comparisons.judging.model_error.quantities_of_interest import (
     LARGEST,
@@ -30,31 +33,21 @@ from comparisons.judging.model_error.quantities_of_interest import (
     quantities_of,
 )
 from comparisons.judging.rule import formal_order, judged, relative_resolution, values_of
-from comparisons.judging.study import Case
+from comparisons.judging.study import MODEL_ERROR, Case
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
+INTERACTION, JUMP = "interaction", "jump"  # parts beside the effects
+INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
 NEAR = 0.5  # of the largest value: asperities below it do not compete
 
 
-@dataclass(frozen=True)
-class ModelError:
-    """Of one quantity at one friction coefficient, relative to the whole."""
-
-    quantity: str
-    friction: float
-    effects: dict[str, Part]  # by name, what each changes in the finite elements
-    interaction: float  # what they change jointly beyond their sum
-    value: float  # (half-plane - whole) / whole
-    uncertainty: float  # of `value`
-    scale: float = 1.0  # the whole's figure [SI], or the Hertz contact's where that vanishes
-    # of elasticity; its middle is a part of `value`
-    law: LawSpread = field(default_factory=LawSpread)
-    # of a largest value: what the half-plane's own exceeds its value at the whole's asperity
-    jump: float = 0.0
-    # x [m] of the half-plane's largest value and of the whole's, where these are at two asperities,
-    # else None
-    moved: tuple[float, float] | None = None
+def figure_of(error: Figure, selection: EffectSelection, tolerance: Mapping[str, float]) -> Figure:
+    """A model error with what no model has by a selection of effects, and judged where its quantity
+    has a tolerance."""
+    unknown, bound = selection.not_modelled(error.quantity), tolerance.get(error.quantity)
+    bounds = None if bound is None else (-bound, bound)
+    return replace(error, unknown=unknown | error.unknown, bounds=bounds)
 
 
 @dataclass(frozen=True)
@@ -148,62 +141,101 @@ class Solutions:
             "peak_pressure": self.wholes[-1].peak_resolution,
         }
 
-    def error(self, row: Figure) -> ModelError:
-        """Of the quantity of a row of the models' comparison."""
-        name, at = row.quantity, self.whole.leading(row.quantity)
-        effects = {effect: self._effect(name, effect, at, row.numerical) for effect in self.effects}
-        interaction = 0.0
-        if self.split_levels:
-            joint = [level.interaction(self.effects) for level in self.split_levels]
-            interaction, _ = self._estimate(name, joint, at)
-        value, uncertainty, scale = self._of_figure(name, row.numerical, at)
+    def error(self, row: Figure) -> Figure:
+        """The half-plane's, in the quantity of a row of the models' comparison, with its parts: the
+        difference from the scene's own finite elements is on the same pressure elements."""
+        name, half_plane = row.quantity, self.values["half_plane"][row.quantity]
+        at = self.whole.leading(name)
+        figure, scale = self._size(name, at)
+        numerical = row.numerical * self._scale(self.values["finite_element"][name], name) / scale
+        if at != self.of_scene[-1].leading(name):  # the comparison is at another asperity
+            sequence = [level.figures[name][at] / scale for level in self.of_scene]
+            refined = grid_convergence(sequence, self._order(name))
+            numerical = max(numerical, self.unsolved + refined.uncertainty)
+        if self.longer is not None:  # the half-plane on its finest level, the whole on another
+            stated = judged(self.runs["half_plane"], self.problem)[name]
+            numerical += stated.numerical * self._scale(half_plane, name) / scale
+        if name in LARGEST:
+            numerical += self._of_competitors(name, numerical, at) / scale
+        error = self._figure(name, (half_plane - figure) / scale, numerical, self._lacking(name))
+        parts = [self._effect(name, effect, at, row.numerical) for effect in self.effects]
+        joint = [level.interaction(self.effects).figures[name][at] for level in self.split_levels]
+        parts.append(Part(INTERACTION, self._estimate(name, joint, at)[0]))
         jump, moved = self._jump(name, row.numerical, at)
-        return ModelError(
+        return replace(error, parts=(*parts, Part(JUMP, jump), *error.parts), place=moved)
+
+    def of_levels(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> Figure:
+        """Of finite elements with other effects, on the last of the levels of the effects."""
+        at, pairs = self.whole.leading(name), zip(levels, self.wholes, strict=False)
+        middle = 1.0 + self._spread(name, at).middle
+        apart = [one.largest()[name] - middle * whole.largest()[name] for one, whole in pairs]
+        error, unsure = self._estimate(name, apart, at)
+        return self._figure(name, error, unsure, self._increments(name, at) if any(apart) else 0.0)
+
+    def of_exact(self, name: str, value: float | None = None) -> Figure:
+        """Of a model without numerical error, by its value [SI]; of the whole itself by default,
+        what is not known of it."""
+        figure, scale = self._size(name, self.whole.leading(name))
+        error = 0.0 if value is None else (value - figure) / scale
+        stated = judged(self.runs["finite_element"], self.problem)[name]
+        numerical = stated.numerical * abs(self.of_scene[-1].largest()[name]) / scale
+        return self._figure(name, error, numerical, self._lacking(name))
+
+    def _figure(self, name: str, error: float, numerical: float, lacking: float) -> Figure:
+        """A model against the whole: (model - whole) / whole.
+
+        numerical  uncertainty of the model's difference from the scene's own finite elements, or of
+                   finite elements with other effects from the whole
+        lacking    of what is between these and the whole, all relative to this"""
+        at = self.whole.leading(name)
+        (figure, scale), before = self._size(name, at), self.whole.figures[name][at]
+        ratio = error + figure / scale
+        spread, parts, unknown = self._spread(name, at), (), {}
+        uncertainty = {"numerical": float(difference_of_figures(numerical, ratio, lacking))}
+        over = self._scale(before, name) / scale
+        larger = over * max(1.0, abs(ratio))
+        if spread.half:
+            unknown[LAW] = float(spread.half * larger)
+            parts = (Part(LAW, float(spread.middle * over), unknown[LAW]),)
+        if spread.scatter:
+            uncertainty[INPUTS] = float(spread.scatter * larger)
+        return Figure(
+            study=MODEL_ERROR,
             quantity=name,
-            friction=self.case.friction,
-            effects=effects,
-            interaction=interaction,
-            value=value,
-            uncertainty=uncertainty,
-            scale=scale,
-            law=self._law(name, at),
-            jump=jump,
-            moved=moved,
+            source="half_plane",
+            value=float(error),
+            at=self.case.at,
+            against=WHOLE,
+            scale=float(scale),
+            uncertainty=Uncertainty(uncertainty),
+            unknown=unknown,
+            parts=parts,
         )
 
     def _spread(self, name: str, at: int) -> LawSpread:
         return LawSpread() if self.laws is None else self.laws.spread(name, at)
 
-    def _figure(self, name: str, at: int) -> float:
-        """Of the whole [SI], by the middle of what its law of elasticity may be."""
+    def _size(self, name: str, at: int) -> tuple[float, float]:
+        """The whole's figure by the middle of what its law of elasticity may be, and what errors
+        are relative to [SI]."""
         figure = self.whole.figures[name][at]
-        middle = self._spread(name, at).middle
-        return figure + middle * _scale(figure, name, self.problem) if middle else figure
+        figure += self._spread(name, at).middle * self._scale(figure, name)
+        return figure, self._scale(figure, name)
 
-    def _law(self, name: str, at: int) -> LawSpread:
-        """Relative to the figure that the error is relative to, and of the error."""
-        spread = self._spread(name, at)
-        if spread == LawSpread():
-            return spread
-        figure = self._figure(name, at)
-        scale = _scale(figure, name, self.problem)
-        over = _scale(self.whole.figures[name][at], name, self.problem) / scale
-        ratio = max(1.0, abs(self.values["half_plane"][name] / scale))
-        sizes = spread.middle * over, spread.half * over * ratio, spread.scatter * over * ratio
-        return LawSpread(*map(float, sizes))
+    def _scale(self, figure: float, name: str) -> float:
+        """What differences are measured by [SI]: it, or the Hertz contact's where it vanishes."""
+        return abs(figure) or QUANTITIES[name].scale(self.problem.hertz)
 
     def _order(self, name: str) -> float:
         """Of convergence under refinement."""
         finest = [run.finest for run in self.runs.values()]
         return formal_order(name, finest, self.problem)
 
-    def _estimate(
-        self, name: str, changes: list[QuantitiesOfInterest], at: int
-    ) -> tuple[float, float]:
-        """The relative size, with its uncertainty, of changes, one a level, at an asperity."""
+    def _estimate(self, name: str, changes: Sequence[float], at: int) -> tuple[float, float]:
+        """The relative size, with its uncertainty, of changes [SI], one a level, at an asperity."""
         # by one scale: a place may jump to the surface on one level alone
-        scale = self._scale_of(name, at)
-        values = [float(change.figures[name][at] / scale) for change in changes]
+        scale = self._size(name, at)[1]
+        values = [float(change / scale) for change in changes]
         if not any(values):
             return 0.0, 0.0
         resolution = self.resolutions.get(name, 0.0)
@@ -211,7 +243,7 @@ class Solutions:
         return values[-1], refined.uncertainty + self.unsolved
 
     def _effect(self, name: str, effect: str, at: int, numerical: float) -> Part:
-        changes = [level.effect(effect) for level in self.split_levels]
+        changes = [level.effect(effect).figures[name][at] for level in self.split_levels]
         (size, unsure), pair = (
             self._estimate(name, changes, at),
             self.split_levels[-1].pairs[effect],
@@ -222,7 +254,7 @@ class Solutions:
             if effect in self.nearer:
                 ends = self.nearer[effect], self.split_levels[0].pairs[effect][1]
                 domain = far_boundary(*(solution.figures[name][at] for solution in ends))
-                domain /= self._scale_of(name, at)
+                domain /= self._size(name, at)[1]
             unsure += domain
         with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
         if with_it is None:
@@ -230,35 +262,21 @@ class Solutions:
         certain = with_it.max() / (1.0 + max(unsure, numerical))  # which may be infinite
         return Part(effect, size, unsure, bool(certain > with_it[np.argmax(without)]))
 
-    def _of_figure(self, name: str, numerical: float, at: int) -> tuple[float, float, float]:
-        """Error of a figure, its uncertainty, and what both are relative to [SI]."""
-        figure = self._figure(name, at)
-        scale = _scale(figure, name, self.problem)
-        numerical *= _scale(self.values["finite_element"][name], name, self.problem) / scale
-        if at != self.of_scene[-1].leading(name):  # the comparison is at another asperity
-            sequence = [level.figures[name][at] / scale for level in self.of_scene]
-            refined = grid_convergence(sequence, self._order(name))
-            numerical = max(numerical, self.unsolved + refined.uncertainty)
-        lacking, half_plane = self._lacking(name, at), self.values["half_plane"][name]
-        if self.longer is not None:  # the half-plane on its finest level, the whole on another
-            stated = judged(self.runs["half_plane"], self.problem)[name]
-            numerical += stated.numerical * _scale(half_plane, name, self.problem) / scale
-        uncertainty = difference_of_figures(numerical, half_plane / scale, lacking)
-        if name in LARGEST:
-            uncertainty += self._of_competitors(name, numerical, at) / scale
-        return float((half_plane - figure) / scale), float(uncertainty), float(scale)
+    def _lacking(self, name: str) -> float:
+        """Uncertainty of what the whole has beside the scene's own finite elements, relative."""
+        at = self.whole.leading(name)
+        return self._missing(name, at) + self._increments(name, at)
 
-    def _lacking(self, name: str, at: int) -> float:
-        """Uncertainty of what the whole has beside the scene's own finite elements, relative. One
-        that flows beside them stands for itself: by its levels, and by its increments."""
+    def _missing(self, name: str, at: int) -> float:
+        """The part by levels; of a whole that flows beside them, and stands for itself, by its."""
         levels = self.missing if self.longer is None else self.wholes
-        return self._estimate(name, levels, at)[1] + self._increments(name, at)
+        return self._estimate(name, [level.figures[name][at] for level in levels], at)[1]
 
     def _increments(self, name: str, at: int) -> float:
         """The part by increments of flow; unknown where longer ones have no solution."""
         if not self.longer:
             return 0.0 if self.longer is None else np.inf
-        scale = self._scale_of(name, at)
+        scale = self._size(name, at)[1]
         return of_increments([float(value.figures[name][at] / scale) for value in self.longer])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
@@ -269,19 +287,13 @@ class Solutions:
         stated = judged(self.runs["finite_element"], self.problem)
         alone = stated[largest].numerical  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
-        beside = self.missing if self.longer is None else self.wholes
         values, top = whole[largest], whole[largest][at]
 
-        def missing(k: int) -> float:
-            """By asperity, how sure is what the whole has beside them."""
-            return self._estimate(largest, beside, k)[1]
-
-        if not np.isfinite(alone + missing(at)):
-            return 0.0  # it is unknown already
-
         def doubt(k: int) -> float:
-            return alone * abs(values[k]) + missing(k) * abs(top)
+            return alone * abs(values[k]) + self._missing(largest, k) * abs(top)
 
+        if not np.isfinite(doubt(at)):
+            return 0.0  # it is unknown already
         least = top - doubt(at)
         near = [k for k in np.flatnonzero(values > NEAR * top) if values[k] + doubt(k) >= least]
         if name == largest:
@@ -291,59 +303,14 @@ class Solutions:
     def _jump(
         self, name: str, numerical: float, at: int
     ) -> tuple[float, tuple[float, float] | None]:
-        """What the half-plane's largest value exceeds its value at the whole's asperity by, and
-        both places where these are no twin peaks, as ModelError has them."""
+        """What the half-plane's largest value exceeds its value at the whole's asperity by, and x
+        [m] of its largest value and of the whole's, where these are no twin peaks, else None."""
         half_plane, before = self.half_plane[-1], self.half_plane[-1].leading(name)
         if before == at:
             return 0.0, None
         largest, figures = LARGEST[name], half_plane.figures
-        apart = figures[name][before] - figures[name][at]
-        jump = float(apart / _scale(self._figure(name, at), name, self.problem))
+        jump = float((figures[name][before] - figures[name][at]) / self._size(name, at)[1])
         if not figures[largest][before] / figures[largest][at] - 1.0 > numerical:
             return jump, None
         places = half_plane.places[largest][before], self.wholes[-1].places[largest][at]
         return jump, (float(places[0]), float(places[1]))
-
-    def of_variants(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> ModelError:
-        """Of finite elements with other effects, on the last of the levels of the effects."""
-        at = self.whole.leading(name)
-        scale, middle = self._scale_of(name, at), self._spread(name, at).middle
-        apart = [
-            (one.largest()[name] - (1.0 + middle) * whole.largest()[name]) / scale
-            for one, whole in zip(levels, self.wholes, strict=False)
-        ]
-        if not any(apart):
-            return self._plain_error(name, at, 0.0, 0.0)
-        resolution = self.resolutions.get(name, 0.0)
-        unsure = grid_convergence(apart, self._order(name), resolution).uncertainty + self.unsolved
-        unsure += self._increments(name, at)
-        return self._plain_error(name, at, float(apart[-1]), float(unsure))
-
-    def of_exact(self, name: str, exact: QuantitiesOfInterest, numerical: float) -> ModelError:
-        """Of a model without numerical error.
-
-        numerical  relative uncertainty of the scene's own finite elements"""
-        at = self.whole.leading(name)
-        lacking = self._lacking(name, at)
-        scale, value = self._scale_of(name, at), exact.largest()[name]
-        numerical *= abs(self.of_scene[-1].largest()[name]) / scale
-        unsure = float(difference_of_figures(numerical, value / scale, lacking))
-        value = float((value - self._figure(name, at)) / scale)
-        return self._plain_error(name, at, value, unsure)
-
-    def of_whole(self, name: str, numerical: float) -> ModelError:
-        """What is not known of the whole itself."""
-        at = self.whole.leading(name)
-        return self._plain_error(name, at, 0.0, numerical + self._lacking(name, at))
-
-    def _scale_of(self, name: str, at: int) -> float:
-        return _scale(self._figure(name, at), name, self.problem)
-
-    def _plain_error(self, name: str, at: int, value: float, unsure: float) -> ModelError:
-        scale, law = self._scale_of(name, at), self._law(name, at)
-        return ModelError(name, self.case.friction, {}, 0.0, value, unsure, scale, law=law)
-
-
-def _scale(figure: float, name: str, problem: Problem) -> float:
-    """What differences are measured by [SI]: the figure, the Hertz contact's where it vanishes."""
-    return abs(figure) or QUANTITIES[name].scale(problem.hertz)

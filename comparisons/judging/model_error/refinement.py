@@ -2,24 +2,26 @@
 further level could change is no verdict."""
 
 import math
+from collections.abc import Hashable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from comparisons.common.tasks import LAST
-from comparisons.figures.figure import Figure
+from comparisons.figures.figure import Figure, Figures
 from comparisons.judging.effects.catalogue import ModelVariant
-from comparisons.judging.effects.laws import LawSolutions, law_variants
-from comparisons.judging.effects.selection import FLOW, NONLINEAR, EffectSelection
-from comparisons.judging.model_error.account import figure_of
+from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.laws import LawSolutions
+from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    SplitVariants,
     contributions_of,
+    split_variants,
 )
-from comparisons.judging.model_error.model_error import ModelError, Solutions
+from comparisons.judging.model_error.model_error import Solutions, figure_of
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVariants
-from comparisons.models.plan import LONGER
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 
 MOST_LEVELS = 3  # of the effects
@@ -28,10 +30,29 @@ ASKED = 'budget.effects = "all" computes it'
 GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 
 
-def longer_increments(whole: ModelVariant, selection: EffectSelection) -> tuple[ModelVariant, ...]:
-    """The whole by longer increments of flow, the longest first, where the scene's own finite
-    elements do not flow: their check; else none."""
-    return tuple(replace(whole, times=t) for t in LONGER) if FLOW in selection.added else ()
+@dataclass(frozen=True)
+class ErrorBudget:
+    """What separates the half-plane from the whole model, and both from the surface."""
+
+    selection: EffectSelection  # which effects were computed
+    levels: int  # that the whole was taken to; 0 where it has no solution
+    unsplit: str | None  # why the difference of the models could not be split, else None
+    # of each quantity at each friction coefficient, without what is not modelled
+    model_errors: tuple[Figure, ...]
+    seconds: float = 0.0  # that the effects took
+    # of each case, the finite elements with every effect that matters, on the finest level of the
+    # effects, with their fields
+    wholes: tuple[Level, ...] = ()
+    # which further level of the whole cannot change a verdict, else None
+    left_out: str | None = None
+    # of each case, what else is compared with the whole; empty where it has no solution
+    solutions: tuple[Solutions, ...] = ()
+    # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
+    took: dict[str, tuple[float, int]] = field(default_factory=dict)
+
+    def figures(self, tolerance: Mapping[str, float]) -> Figures:
+        """Every model error with all that is not known of it, judged where it has a tolerance."""
+        return Figures(figure_of(error, self.selection, tolerance) for error in self.model_errors)
 
 
 def most_effect_levels(problem: Problem) -> int:
@@ -39,180 +60,142 @@ def most_effect_levels(problem: Problem) -> int:
     return min(MOST_LEVELS, most or MOST_LEVELS)
 
 
-@dataclass(frozen=True)
-class RefinedEffects:
-    """The model errors, as far as the levels of the effects were taken."""
-
-    levels: int  # that the whole was taken to
-    errors: list[ModelError]
-    unsplit: str | None  # why these are not split
-    left_out: str | None  # which level cannot change a verdict
-    solutions: tuple[Solutions, ...] = ()  # of each case
-
-
-@dataclass
-class _CaseEffects:
-    """The variants of one case, and what is solved of them."""
-
-    split: SplitVariants
-    laws: dict[tuple[int, str], ModelVariant]  # the whole with other laws of elasticity
-    increments: tuple[ModelVariant, ...]  # by longer increments of flow, the longest first
-    solutions: Solutions
-
-    def now(self, **found: object) -> None:
-        self.solutions = replace(self.solutions, **found)
-
-
 class EffectRefinement:
-    """The effects level by level. The split stays on the least levels, unless the whole and the
-    scene's own finite elements are all that it takes."""
+    """The effects of a selection level by level. The split stays on the least levels, unless the
+    whole and the scene's own finite elements are all that it takes."""
 
     def __init__(
-        self,
-        rows: tuple[Figure, ...],
-        splits: tuple[SplitVariants, ...],
-        solved: SolvedVariants,
-        selection: EffectSelection,
-        most: int = MOST_LEVELS,
+        self, rows: tuple[Figure, ...], variants: SolvedVariants, selection: EffectSelection
     ) -> None:
-        """`splits` of each case; `most` levels at most."""
-        self.open_laws, self.without_laws = selection.laws, ""  # why they have no solution
-        self.rows, self.solved, self.problem = rows, solved, solved.problem
-        self.cases = []
-        for case, split in zip(solved.scene.cases, splits, strict=True):
-            # increments are checked at small strains: they are the same at finite ones
-            small = split.whole
-            if selection.whole.issuperset(NONLINEAR):
-                small = split.pairs["finite_strain"][1]
-            longer = longer_increments(small, selection)
-            increments = (*longer, small) if longer else ()
-            known = Solutions(case, longer=[] if increments else None)
-            laws = law_variants(split.whole, selection.laws)
-            self.cases.append(_CaseEffects(split, laws, increments, known))
-        self.most = min(most, most_effect_levels(solved.problem), len(solved.of_scene.levels))
-        self.every = dict.fromkeys(variant for split in splits for variant in split.all)
-        self.wholes = dict.fromkeys(variant for split in splits for variant in split.wholes)
+        self.rows, self.variants, self.selection = rows, variants, selection
+        self.problem, cases = variants.problem, variants.scene.cases
+        self.splits = [split_variants(self.problem, selection, case.friction) for case in cases]
+        variants.keep(split.whole for split in self.splits)
+        self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
+        self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
+        pairs = zip(cases, self.splits, strict=True)
+        self.solutions = [Solutions(c, longer=[] if s.increments else None) for c, s in pairs]
 
-    @property
-    def solutions(self) -> tuple[Solutions, ...]:
-        return tuple(one.solutions for one in self.cases)
+    def budget(self, most: int, is_frugal: bool) -> ErrorBudget:
+        """The model errors by so many levels at most. The wholes, which others need, are solved
+        before what splits them.
 
-    def result(self, frugal: EffectSelection | None) -> RefinedEffects:
-        """The wholes, which others need, are solved before what splits them.
-
-        frugal  what was selected, where a level that cannot change a verdict is left out; else None
+        is_frugal  whether a level that cannot change a verdict is left out
         Raises NotComputedError where a whole has no solution on the least levels."""
+        most = min(most, most_effect_levels(self.problem), len(self.variants.of_scene.levels))
         for number in range(1, LEAST_LEVELS + 1):
-            self.solved.announce(self.every, number, LAST)
-        for one in self.cases:
-            nearer = one.split.held_nearer.values()
-            self.solved.announce((*one.laws.values(), *one.increments, *nearer), 1, LAST)
-        left_out = self._take_wholes(frugal)
+            self.variants.announce(self.every, number, LAST)
+        for split in self.splits:
+            self.variants.announce(split.checks, 1, LAST)
+        left_out = self._take_wholes(most, is_frugal)
         levels = len(self.solutions[0].history)
         for number in range(1, levels + 1):
-            is_open = any(self.solved.is_open(variant, number) for variant in self.every)
+            is_open = any(self.variants.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
-        # on the coarsest level, what lacks an effect of size with its far boundary nearer
-        for one in self.cases:
-            nearer, friction = {}, one.solutions.case.friction
-            for name, variant in one.split.held_nearer.items():
-                with suppress(NotComputedError):
-                    nearer[name] = self.solved.solution(variant, 1, friction)
-            one.now(nearer=nearer)
-        parts = (level for solutions in self.solutions for level in solutions.history)
-        why = next((level.unsplit for level in parts if level.unsplit), None)
-        return RefinedEffects(levels, self._errors(), why, left_out, self.solutions)
+        for number, split in enumerate(self.splits):
+            self._note(number, nearer=self._coarsest(number, split.held_nearer))
+        parts = (level.unsplit for one in self.solutions for level in one.history)
+        pairs = zip(self.splits, self.solutions, strict=True)
+        return ErrorBudget(
+            selection=self.selection,
+            levels=levels,
+            unsplit=next(filter(None, parts), None),
+            model_errors=tuple(self._errors()),
+            wholes=tuple(self.variants.finest(s.whole, one.case.friction) for s, one in pairs),
+            left_out=left_out,
+            solutions=tuple(self.solutions),
+        )
 
-    def _take_wholes(self, frugal: EffectSelection | None) -> str | None:
+    def _take_wholes(self, most: int, is_frugal: bool) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
-        for number in range(1, self.most + 1):
-            if number > LEAST_LEVELS:
-                # by the laws of cost: clocks would give another machine other figures
-                finer = GROWTH_OF_TIME * self.solved.expected_of(number - 1, self.wholes)
-                if spent_seconds(self.solved, number) + finer > self.problem.time:
-                    return None
+        for number in range(1, min(most, LEAST_LEVELS) + 1):
+            self._take(number, alone=True)
+        if most >= LEAST_LEVELS:
+            self._take_laws()
+            self._take_increments()
+        for number in range(LEAST_LEVELS + 1, most + 1):
+            errors = self._errors()
+            if _settled(self.rows, errors):
+                break
+            if is_frugal and self._are_fixed(errors):
+                return f"level {number} of the whole model: cannot change a verdict ({ASKED})"
+            # by the laws of cost: clocks would give another machine other figures
+            finer = GROWTH_OF_TIME * self.variants.expected_of(number - 1, self.wholes)
+            if spent_seconds(self.variants, number) + finer > self.problem.time:
+                break
             try:
                 self._take(number, alone=True)
             except NotComputedError:
-                if number <= LEAST_LEVELS:
-                    raise
-                return None
-            if number == LEAST_LEVELS:
-                self._take_laws()
-                self._take_increments()
-            errors = self._errors()
-            if number >= LEAST_LEVELS and _settled(self.rows, errors):
-                return None
-            if LEAST_LEVELS <= number < self.most and frugal and self._is_fixed(errors, frugal):
-                further = f"level {number + 1} of the whole model"
-                return f"{further}: cannot change a verdict ({ASKED})"
+                break
         return None
 
+    def _take(self, number: int, alone: bool) -> None:
+        """A level into the history: of the wholes alone, or of every variant."""
+        self.variants.prepare(self.wholes if alone else self.every, number)
+        taken = []
+        for one, split in zip(self.solutions, self.splits, strict=True):
+            solved = partial(self.variants.solution, number=number, friction=one.case.friction)
+            parts = contributions_of(solved, split, alone)
+            history = (*one.history[: number - 1], parts, *one.history[number:])
+            taken.append(replace(one, history=history))
+        self.solutions = taken  # all of them, or none
+
     def _take_laws(self) -> None:
-        """The wholes on the coarsest level with other laws; `without_laws` where one has none."""
-        for one in self.cases:
-            self.solved.prepare(one.laws.values(), 1)
-            solved = partial(self.solved.solution, number=1, friction=one.solutions.case.friction)
-            try:
-                moved = {key: solved(variant) for key, variant in one.laws.items()}
-            except NotComputedError as error:
-                self.without_laws = f"with the law of {error.variant.laws_name}: {error}"
-                for known in self.cases:
-                    known.now(laws=None)
+        """The wholes on the coarsest level with other laws; where one has no solution, none."""
+        every = [self._coarsest(number, split.laws) for number, split in enumerate(self.splits)]
+        for variant in (variant for split in self.splits for variant in split.laws.values()):
+            if (error := self.variants.failed.get((variant, 1))) is not None:
+                why = f"with the law of {variant.laws_name}: {error}"
+                self.selection = self.selection.without(frozenset({LAW}), why)
                 return
-            if moved:
-                whole = one.solutions.history[0].whole
-                laws = LawSolutions(one.solutions.problem, self.open_laws, whole, moved)
-                one.now(laws=laws)
+        for number, moved in enumerate(every):
+            known = self.problem, self.selection.laws, self.solutions[number].history[0].whole
+            self._note(number, laws=LawSolutions(*known, moved) if moved else None)
 
     def _take_increments(self) -> None:
         """The wholes that flow on the coarsest level by longer increments; none where one of them
         has no solution."""
-        for one in self.cases:
-            self.solved.prepare(one.increments, 1)
-            solved = partial(self.solved.solution, number=1, friction=one.solutions.case.friction)
+        for number, split in enumerate(self.splits):
+            longer = self._coarsest(number, dict(enumerate(split.increments)))
+            if longer and len(longer) == len(split.increments):
+                self._note(number, longer=list(longer.values()))
+
+    def _coarsest(
+        self, number: int, asked: Mapping[Hashable, ModelVariant]
+    ) -> dict[Hashable, QuantitiesOfInterest]:
+        """By key, those variants of a case that have a solution on the coarsest level."""
+        found, friction = {}, self.solutions[number].case.friction
+        for key, variant in asked.items():
             with suppress(NotComputedError):
-                if one.increments:
-                    one.now(longer=list(map(solved, one.increments)))
+                found[key] = self.variants.solution(variant, 1, friction)
+        return found
 
-    def _take(self, number: int, alone: bool) -> None:
-        """A level into the history: of the wholes alone, or of every variant."""
-        self.solved.prepare(self.wholes if alone else self.every, number)
-        new = []
-        for one in self.cases:
-            known = {"number": number, "friction": one.solutions.case.friction}
-            new.append(contributions_of(partial(self.solved.solution, **known), one.split, alone))
-        for one, parts in zip(self.cases, new, strict=True):  # all of them, or none
-            before, after = one.solutions.history[: number - 1], one.solutions.history[number:]
-            one.now(history=(*before, parts, *after))
+    def _note(self, number: int, **found: object) -> None:
+        self.solutions[number] = replace(self.solutions[number], **found)
 
-    def _errors(self) -> list[ModelError]:
-        return [
-            solutions.error(row)
-            for solutions in self.solutions
-            for row in self.rows
-            if row.friction == solutions.case.friction
-        ]
+    def _errors(self) -> list[Figure]:
+        known = [(one, row) for one in self.solutions for row in self.rows]
+        return [one.error(row) for one, row in known if row.friction == one.case.friction]
 
-    def _is_fixed(self, errors: list[ModelError], selection: EffectSelection) -> bool:
+    def _are_fixed(self, errors: list[Figure]) -> bool:
         """Whether a finer solution leaves every verdict as it is."""
-        tolerance = self.problem.scene.tolerances
-        figures = (figure_of(error, selection, tolerance) for error in errors)
+        known = self.selection, self.problem.scene.tolerances
+        figures = (figure_of(error, *known) for error in errors)
         return all(figure.is_fixed for figure in figures if figure.bounds)
 
 
-def spent_seconds(solved: SolvedVariants, below: int | None = None) -> float:
+def spent_seconds(variants: SolvedVariants, below: int | None = None) -> float:
     """Seconds of the levels of the scene's finite elements and of all variants, of these `below` a
     number, by the laws of cost."""
-    numbers = {number for _, number in solved.expected if below is None or number < below}
-    spent = sum(level.expected_seconds for level in solved.of_scene.levels)
-    return spent + sum(solved.expected_of(number) for number in sorted(numbers))
+    numbers = {number for _, number in variants.expected if below is None or number < below}
+    spent = sum(level.expected_seconds for level in variants.of_scene.levels)
+    return spent + sum(variants.expected_of(number) for number in sorted(numbers))
 
 
-def _settled(rows: tuple[Figure, ...], errors: list[ModelError]) -> bool:
+def _settled(rows: tuple[Figure, ...], errors: list[Figure]) -> bool:
     """Whether the effects add little to the uncertainty of every judged figure."""
-    stated = {(e.quantity, e.friction): e.uncertainty for e in errors}
+    stated = {(e.quantity, e.friction): e.uncertainty.parts["numerical"] for e in errors}
     return all(
         stated[row.quantity, row.friction]
         <= (row.numerical if math.isfinite(row.numerical) else 0.0)

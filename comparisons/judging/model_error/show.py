@@ -28,7 +28,7 @@ from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.selection import FLOW
-from comparisons.judging.model_error.account import INTERACTION, JUMP, TRUST
+from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 ROUNDING = 1e-12  # of a figure's scale: what two of them leave where it is zero
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
+TRUST = "law of elasticity"  # statement: what is said of the strains that it bears
 WORDS = {INTERACTION: "interaction", JUMP: "another asperity"}  # of parts that are no effects
 ROW, TITLE, FOOT, TOP = 0.21, 0.42, 0.5, 0.06  # inches: a step, the words above and below
 NAMES, BETWEEN, RIGHT = 1.95, 0.25, 0.1  # inches: names of the steps, from panel to panel

@@ -4,27 +4,31 @@ In: the comparison of both models, the couplings. Out: a judged figure a quantit
 the whole model's levels. The effects begin as soon as the half-plane is solved, whose answer is
 said then, beside estimates of what it leaves out."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Early
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Findings
-from comparisons.figures.quantity import QUANTITIES
+from comparisons.figures.figure import Column, Findings, Series, Statement
+from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.judging import comparison, coupling
 from comparisons.judging.coupling import Coupling
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.effects.laws import trust
 from comparisons.judging.model_error import show
-from comparisons.judging.model_error.account import NAME, effect_account, findings_of
 from comparisons.judging.model_error.error_budget import (
     announce_effects,
     error_budget,
     mean_pressure,
     selected_effects,
 )
+from comparisons.judging.model_error.refinement import ErrorBudget
+from comparisons.judging.model_error.show import TRUST
 from comparisons.judging.rule import values_of
+from comparisons.judging.study import MODEL_ERROR as NAME
 from comparisons.judging.study import Solved, Study
 from comparisons.judging.yielding import flow_assessment, flows_at_such
 from comparisons.models.level import Level
@@ -49,7 +53,7 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
         return []
     moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
     selection = selected_effects(solved, moved)
-    account = {name: effect_account(name, selection) for name in EFFECTS}
+    account = {name: selection.account(name) for name in EFFECTS}
     flows = flows_at_such(solved.problem.scene, flow_assessment(solved))
     lines = [f"flow: {flows}"] if flows else []
     for status in ("computed", "not computed"):
@@ -73,6 +77,30 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     moved = before[coupling.NAME].data if coupling.NAME in before else ()
     budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
     return findings_of(budget, solved.problem)
+
+
+def findings_of(budget: ErrorBudget, problem: Problem) -> Findings:
+    """The model errors of a finished comparison, and what became of every effect."""
+    account = {name: budget.selection.account(name) for name in EFFECTS}
+    columns = {
+        "effect": Column(tuple(account)),
+        "status": Column(tuple(status for status, _ in account.values())),
+        "because": Column(tuple(why for _, why in account.values())),
+    }
+    for quantity in QUANTITIES:
+        sizes = [budget.selection.estimates.get(name, {}).get(quantity) for name in EFFECTS]
+        columns[quantity] = Column(tuple(None if size == math.inf else size for size in sizes))
+    cost = {"levels": Column((budget.levels,)), "seconds": Column((budget.seconds,), "s")}
+    series = (
+        Series("effects", columns, is_account=True),
+        Series("cost", cost, WHOLE, is_account=True),
+    )
+    said = {"not split": budget.unsplit, "left out": budget.left_out}
+    if "finite_strain" in budget.selection.whole and budget.wholes:
+        frictions = problem.scene.load.friction
+        said[TRUST] = trust(problem, budget.wholes[frictions.index(max(frictions))])
+    statements = tuple(Statement(name, text) for name, text in said.items() if text is not None)
+    return Findings(budget.figures(problem.scene.tolerances), series, statements, budget)
 
 
 def early_lines(

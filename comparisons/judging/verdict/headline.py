@@ -13,7 +13,7 @@ from comparisons.figures.figure import Figure, deciding
 from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import FLOW
-from comparisons.judging.model_error.account import INTERACTION
+from comparisons.judging.model_error.model_error import INTERACTION
 from comparisons.judging.model_error.show import flow_taken
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.next_step import next_of, pasted

@@ -20,7 +20,7 @@ from comparisons.judging.effects.catalogue import EFFECTS, contained
 from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.sampling import EFFECT as SAMPLING
 from comparisons.judging.effects.selection import FLOW, why_not
-from comparisons.judging.model_error.account import INPUTS
+from comparisons.judging.model_error.model_error import INPUTS
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.whole import figures_of_whole
 from comparisons.judging.verdict.within import rounded_up

@@ -17,9 +17,9 @@ from scenes import (
     run_of,
 )
 
+from comparisons.figures.figure import Figure
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.model_error.contributions import split_variants
-from comparisons.judging.model_error.model_error import ModelError
 from comparisons.judging.rule import values_of
 from comparisons.models.problem import Levels
 
@@ -72,7 +72,7 @@ def direct_errors(tables: dict) -> dict[str, float]:
     return {name: flat[name] / real[name] - 1.0 for name in flat}
 
 
-def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
+def both(name: str, levels: int, elements: float) -> list[tuple[Figure, float]]:
     """Of every quantity, put together and switched on; the third level has so many elements to a
     half-width."""
     tables, switches = SCENES[name]
@@ -87,7 +87,7 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
     assert split.whole.effects == contained(resolved(switched))
     errors = direct_errors(switched)
     return [
-        (added.data("model_error").of(quantity, friction), error)
+        (added.figures.one(study="model_error", quantity=quantity), error)
         for quantity, error in errors.items()
     ]
 
@@ -96,9 +96,9 @@ def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, floa
 def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
     # between waves the pressures of a coarse grid do not reach far enough
     for stated, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
-        assert abs(stated.value - direct) <= stated.uncertainty < np.inf, stated.quantity
+        assert abs(stated.value - direct) <= stated.numerical < np.inf, stated.quantity
         if stated.quantity == "peak_pressure":
-            assert stated.uncertainty < 0.05
+            assert stated.numerical < 0.05
 
 
 def test_on_the_same_levels_they_are_the_same():

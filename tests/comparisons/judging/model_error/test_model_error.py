@@ -11,8 +11,10 @@ from scenes import KNOWN_STEEL, exact_layer, refound, resolved, run_of
 
 from analytic.exact.layers import TABLE
 from comparisons.common.errors import ExitStatus
+from comparisons.figures.figure import Figure, Part
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import kind_of, validity
 from comparisons.models.finite_element import level
@@ -21,6 +23,11 @@ from comparisons.scenes.scene import Scene
 from meshes.block import MeshError
 
 RIGID = {"radius": 10e-3, "rigid": True}
+PEAK = {"quantity": "peak_pressure", "friction": 0.0}
+
+
+def effects_of(error: Figure) -> list[Part]:
+    return [part for part in error.parts if part.name in EFFECTS]
 
 
 def smooth(peak_pressure: float, **tables: dict) -> dict:
@@ -53,16 +60,16 @@ CASES = [
 def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
     tables, exact = exact_layer(case, nu)
     outcome = run_of(tables | {"budget": {"effects": False}})
-    hertz, budget = outcome.problem.hertz, outcome.data("model_error")
+    hertz, errors = outcome.problem.hertz, outcome.figures.of(study="model_error")
     half_plane = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
     for quantity, true in exact.items():
-        stated, error = budget.of(quantity, 0.0), half_plane[quantity] / true - 1.0
-        assert stated.value == pytest.approx(error, abs=stated.uncertainty)
-        assert stated.uncertainty < 0.006
+        stated, error = errors.one(quantity=quantity), half_plane[quantity] / true - 1.0
+        assert stated.value == pytest.approx(error, abs=stated.numerical)
+        assert stated.numerical < 0.006
         # and it is the body's doing, measured against the same block without an end
-        body = stated.effects["finite_size"]
-        assert -body.value == pytest.approx(error, abs=stated.uncertainty + body.uncertainty)
-        assert stated.interaction == 0.0
+        body = stated.part("finite_size")
+        assert -body.value == pytest.approx(error, abs=stated.numerical + body.uncertainty)
+        assert stated.part("interaction").value == 0.0
 
 
 def test_a_thick_plate_counts_against_a_body_that_ends_farther_away():
@@ -73,7 +80,7 @@ def test_a_thick_plate_counts_against_a_body_that_ends_farther_away():
     )
     layer = read.one().value
     exact = layer / outcome.problem.hertz.tau1_max - 1.0
-    part = outcome.data("model_error").of("tau1_max", 0.0).effects["finite_size"]
+    part = outcome.model_errors.one(quantity="tau1_max").part("finite_size")
     assert exact == pytest.approx(0.001448, abs=3e-6)
     assert part.value == pytest.approx(exact, rel=0.1) and part.uncertainty < 0.5 * exact
 
@@ -93,18 +100,20 @@ class TestSmooth:
             assert budget.unsplit is None and budget.levels >= 2
 
     def test_an_effect_of_first_order_doubles(self, outcomes):
-        errors = [outcome.data("model_error").of("peak_pressure", 0.0) for outcome in outcomes]
-        one, other = (error.effects["finite_strain"].value for error in errors)
+        errors = [outcome.figures.one(study="model_error", **PEAK) for outcome in outcomes]
+        one, other = (error.part("finite_strain").value for error in errors)
         assert 1.85 < other / one < 2.15
 
     def test_the_parts_make_up_the_difference_to_what_the_models_say(self, outcomes):
         """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
         for name in ("peak_pressure", "contact_length"):
             known = outcomes[1].figures.of(quantity=name)
-            stated = outcomes[1].data("model_error").of(name, 0.0)
+            stated = known.one(study="model_error")
             values = [known.one(study="contact", source=model).value for model in MODELS]
             whole = values[0] / (1.0 + stated.value)
-            parts = sum(share.value for share in stated.effects.values()) + stated.interaction
+            parts = sum(
+                part.value for part in stated.parts if part.name in {*EFFECTS, "interaction"}
+            )
             models = (values[0] - values[1]) / whole
             assert models - parts == pytest.approx(stated.value, abs=2e-5)
 
@@ -112,9 +121,9 @@ class TestSmooth:
         """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
         last = outcomes[1]
         row = last.figures.one(study="comparison", quantity="peak_pressure")
-        stated = last.data("model_error").of("peak_pressure", 0.0)
+        stated = last.figures.one(study="model_error", **PEAK)
         assert row.verdict == "agree" and abs(row.value) < 3e-4
-        assert stated.value == pytest.approx(-0.0024, abs=0.0006) and stated.uncertainty < 6e-4
+        assert stated.value == pytest.approx(-0.0024, abs=0.0006) and stated.numerical < 6e-4
         errors = last.data("model_error").figures({"peak_pressure": 1e-3})
         assert validity([error for error in errors if error.bounds]) == "fails"
 
@@ -159,9 +168,9 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
     tolerance = {"peak_pressure": 0.001, "contact_length": 0.01}
     outcome = run_of(smooth(1e8, roller={"radius": 0.1, "rigid": True}, tolerance=tolerance))
     for quantity in ("peak_pressure", "contact_length"):
-        stated = outcome.data("model_error").of(quantity, 0.0)
-        computed = sum(abs(effect.value) for effect in stated.effects.values())  # p/E is not zero
-        assert abs(stated.value) <= stated.uncertainty + computed < 0.02
+        stated = outcome.figures.one(study="model_error", quantity=quantity)
+        computed = sum(abs(effect.value) for effect in effects_of(stated))  # p/E is not zero
+        assert abs(stated.value) <= stated.numerical + computed < 0.02
     assert kind_of(outcome) == "holds"
 
 
@@ -184,7 +193,7 @@ def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
     selection = budget.selection
     assert selection.impossible["finite_strain"] == "no mesh is possible"
     assert selection.added == frozenset()
-    assert budget.of("peak_pressure", 0.0).effects == {}
+    assert effects_of(outcome.figures.one(study="model_error", **PEAK)) == []
     assert "finite_strain" in selection.not_modelled("peak_pressure")
     assert status_of(outcome, "finite_strain") == ("not computed", "no mesh is possible")
 
@@ -195,13 +204,13 @@ def test_without_a_solution_free_of_effects_nothing_is_split():
     budget = outcome.data("model_error")
     assert budget.unsplit == "no mesh is possible" and budget.levels >= 2
     row = outcome.figures.one(study="comparison", quantity="peak_pressure")
-    stated, whole = budget.of("peak_pressure", 0.0), budget.wholes[0]
-    assert stated.effects == {} and stated.interaction == 0.0
+    stated, whole = outcome.figures.one(study="model_error", **PEAK), budget.wholes[0]
+    assert effects_of(stated) == [] and stated.part("interaction").value == 0.0
     assert "finite_strain" in budget.selection.added
     levels = outcome.runs["half_plane"].levels  # that on the same pressure elements
     half_plane = next(one for one in levels if one.grid == whole.grid)
     peaks = [float(one.solution.pressure.max()) for one in (half_plane, whole)]
-    assert stated.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=stated.uncertainty)
+    assert stated.value == pytest.approx(peaks[0] / peaks[1] - 1.0, abs=stated.numerical)
     assert abs(stated.value - row.value) > 1e-4
 
 

@@ -8,11 +8,12 @@ from scenes import asked_in_python, judging, posed, refound, unconverged, with_f
 from scenes import judged as figure_of
 
 from comparisons.common.numbers import with_unit
-from comparisons.figures.figure import Part
+from comparisons.figures.figure import Figure, Part
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.effects.laws import LawSpread, open_laws
+from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.laws import open_laws
 from comparisons.judging.effects.selection import FLOW, EffectSelection
-from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.model_error import INTERACTION
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 
@@ -20,12 +21,12 @@ TOLERANCE = 0.02
 NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})
 
 
-def error_of(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
-    shares = {name: Part(name, size, 1e-4) for name, size in effects.items()}
-    return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
+def error_of(quantity: str, value: float, uncertainty: float, **effects: float) -> Figure:
+    shares = tuple(Part(name, size, 1e-4) for name, size in effects.items())
+    return figure_of(quantity, value, uncertainty, parts=(*shares, Part(INTERACTION, 0.0)))
 
 
-def judged(outcome: Run, *errors: ModelError, selection: EffectSelection = NONE) -> Run:
+def judged(outcome: Run, *errors: Figure, selection: EffectSelection = NONE) -> Run:
     """A run whose half-plane has these errors, all judged."""
     scene = outcome.problem.scene
     tolerance = {error.quantity: TOLERANCE for error in errors}
@@ -51,8 +52,8 @@ def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_o
 
 
 def test_a_range_by_the_law_is_said_with_its_ends_and_what_would_narrow_it(smooth_outcome: Run):
-    law = LawSpread(middle=0.01, half=0.015)
-    error = replace(error_of("peak_pressure", -0.01, 1e-4), law=law)
+    error = error_of("peak_pressure", -0.01, 1e-4)
+    error = replace(error, parts=(Part(LAW, 0.01, 0.015),), unknown={LAW: 0.015})
     spread = replace(NONE, laws=open_laws(smooth_outcome.problem.scene))
     said = headline(judged(smooth_outcome, error, selection=spread))
     assert said.kind == "inconclusive"

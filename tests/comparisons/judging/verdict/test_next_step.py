@@ -12,22 +12,33 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import DATA, KNOWN_RUBBER, KNOWN_STEEL, STEEL, as_toml, asked_in_python, half_plane_at
+from scenes import (
+    DATA,
+    KNOWN_RUBBER,
+    KNOWN_STEEL,
+    STEEL,
+    as_toml,
+    asked_in_python,
+    half_plane_at,
+    judged,
+)
 
 from analytic.contact.problem import ContactError
 from comparisons.cli import main
 from comparisons.commands.arguments import LAUNCHED_AS
 from comparisons.common.errors import InputError
-from comparisons.figures.figure import Findings, Statement
+from comparisons.figures.figure import Findings, Part, Statement
 from comparisons.figures.quantity import MODELS
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact, yielding
-from comparisons.judging.effects.laws import LawSpread
+from comparisons.judging.effects.laws import EFFECT as LAW
 from comparisons.judging.effects.sampling import EFFECT as SAMPLING
-from comparisons.judging.model_error.account import NAME, ErrorBudget
 from comparisons.judging.model_error.error_budget import ASKED, selected_effects
-from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.model_error import INPUTS
+from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.study import (
     CONVERGED,
+    MODEL_ERROR,
     Case,
     Run,
     Solved,
@@ -137,26 +148,26 @@ def stated(draw: random.Random, problem: Problem) -> Run:
             )
         size, sure, law = (draw.choice(of) for of in ERRORS)
         errors = [
-            ModelError(
+            judged(
                 quantity,
-                friction,
-                {},
-                0.0,
                 tolerance * size * draw.uniform(0.9, 1.02),
                 tolerance * sure,
-                law=LawSpread(half=tolerance * law * bool(selection.laws)),
+                {LAW: tolerance * law} if law and selection.laws else {},
+                friction=friction,
+                parts=(Part(LAW, 0.0, tolerance * law),) if law and selection.laws else (),
             )
             for quantity, tolerance in scene.tolerances.items()
             if quantity in ("peak_pressure", "contact_length")
             for friction in scene.load.friction
         ]
         if draw.random() < 0.1:
-            errors = [replace(e, law=LawSpread(scatter=2.0), uncertainty=0.0) for e in errors]
+            scatter = Uncertainty({"numerical": 0.0, INPUTS: 2.0})
+            errors = [replace(e, uncertainty=scatter, unknown={}, parts=()) for e in errors]
         if draw.random() < 0.03:
             errors = []
         budget = ErrorBudget(selection, 2, None, tuple(errors), 0.0)
         figures = tuple(budget.figures(scene.tolerances))
-        findings[NAME] = Findings(figures, data=budget)
+        findings[MODEL_ERROR] = Findings(figures, data=budget)
     findings[yielding.NAME] = yielding.solve(solved, findings, None)
     return Run(solved, findings, {}, None)
 

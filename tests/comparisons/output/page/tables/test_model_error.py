@@ -3,13 +3,13 @@
 from dataclasses import replace
 
 import pytest
-from scenes import budgeted, refound
+from scenes import budgeted, judged, refound
 
 from comparisons.figures.figure import Part
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.account import ErrorBudget
-from comparisons.judging.model_error.model_error import ModelError
+from comparisons.judging.model_error.model_error import INTERACTION, JUMP
+from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.model_error.show import (
     NUMERICAL,
     effects_table,
@@ -31,20 +31,21 @@ SELECTION = EffectSelection(
     {"plastic_flow": "the body has no yield stress"},
     ESTIMATES,
 )
-EFFECTS_HERE = {
-    "finite_size": Part("finite_size", 0.04, 0.001),
-    "finite_roller": Part("finite_roller", -0.012, 0.0005),
-    "finite_strain": Part("finite_strain", 0.0001, 0.0001),
-}
+PARTS = (
+    Part("finite_size", 0.04, 0.001),
+    Part("finite_roller", -0.012, 0.0005),
+    Part("finite_strain", 0.0001, 0.0001),
+    Part(INTERACTION, 0.002),
+)
 
 
 @pytest.fixture
 def split(wavy_outcome: Run) -> Run:
     """A run whose peak pressures were split; equal at both frictions; and one length."""
     errors = (
-        ModelError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
-        ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
-        ModelError("contact_length", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
+        judged("peak_pressure", -0.031, 0.0012, friction=0.0, parts=PARTS),
+        judged("peak_pressure", -0.031, 0.0012, friction=0.1, parts=PARTS),
+        judged("contact_length", 0.05, 0.01, friction=0.0, parts=PARTS),
     )
     budget = ErrorBudget(SELECTION, 2, None, errors, 1.5)
     rows = tuple(
@@ -72,8 +73,9 @@ def test_rows_join_equal_frictions_and_list_what_counts(split: Run):
 
 
 def test_a_maximum_that_moves_is_named_with_its_places(split: Run):
-    moved = replace(split.data("model_error").model_errors[1], jump=0.02, moved=(-1.5e-4, 2.5e-5))
-    errors = (split.data("model_error").model_errors[0], moved)
+    first, second = split.data("model_error").model_errors[:2]
+    parts, place = (*second.parts, Part(JUMP, 0.02)), (-1.5e-4, 2.5e-5)
+    errors = first, replace(second, parts=parts, place=place)
     moves = budgeted(split, replace(split.data("model_error"), model_errors=errors))
     first, second = rows_of(moves)
     assert "at x" not in first["quantity"]
