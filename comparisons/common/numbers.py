@@ -10,6 +10,7 @@ MINUS = "−"
 # Unit names by power of ten over the SI unit, largest first.
 _UNITS: dict[str, tuple[tuple[float, str], ...]] = {
     "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"), (1e-12, "pm")),
+    "m^2": ((1.0, "m²"), (1e-6, "mm²"), (1e-12, "µm²")),
     "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
     "N/m": ((1e3, "N/mm"), (1.0, "N/m")),
     "J/m": ((1.0, "J/m"), (1e-3, "mJ/m"), (1e-6, "µJ/m")),

@@ -8,16 +8,13 @@ from dataclasses import asdict
 import numpy as np
 
 from analytic.surface.roughness import roughness
-from comparisons.common.numbers import as_written, scale_of, significant, with_unit
+from comparisons.common.numbers import scale_of
 from comparisons.drawing import style
-from comparisons.drawing.blocks import Block, Pictures
 from comparisons.drawing.curves import over, panels
 from comparisons.figures.figure import Column, Findings, Series, Statement, figures_of
 from comparisons.figures.quantity import Quantity
 from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.running_in import ended
-from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.problem import QUANTITIES as OF_SURFACES
 
 NAME = "running_in"
@@ -26,15 +23,16 @@ LINE_BEFORE = {**style.LINES["finite_element"], "linewidth": 0.9}
 LINE_AFTER = {**style.OUTLINE, "color": style.LINES["half_plane"]["color"]}
 ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 BEFORE, AFTER = "before", "after"  # sources of the surface's figures
-QUANTITIES = OF_SURFACES | {
+OF_FLOW = {
+    "volume_moved": Quantity("volume that flowed", "m^2"),
+    "largest_lowering": Quantity("largest lowering", "m"),
+    "passes": Quantity("passes"),
+    "sweeps": Quantity("sweeps"),
     "hardness": Quantity("hardness at which asperities flow", "Pa"),
     "load_per_length": Quantity("load of running-in", "N/m"),
     "pitch": Quantity("pitch of its pressures", "m"),
-    "passes": Quantity("passes"),
-    "sweeps": Quantity("sweeps"),
-    "volume_moved": Quantity("volume that flowed", "m^2"),
-    "largest_lowering": Quantity("largest lowering", "m"),
 }
+QUANTITIES = OF_FLOW | OF_SURFACES
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
@@ -63,33 +61,10 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     return Findings(tuple(figures), tuple(series), said)
 
 
-def running_in_in_words(scene: Scene, surface: SceneSurface) -> str:
-    """What running-in did, in one sentence, and in more where it fell short."""
-    run_in, places = surface.run_in, len(scene.running_in.places(surface.position))
-    sweeps = f"{run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)}"
-    took = f"{len(run_in.passes)} passes ({sweeps} over {places} place{'s' * (places > 1)})"
-    unfinished = "" if run_in.status == "settled" else "; it has not settled"
-    sentence = (
-        f"In {took} at {as_written(scene.running_in.hardness, 'Pa')} plastic flow took "
-        f"{area(run_in.volume)} off it, up to {with_unit(run_in.largest_lowering, 'm', 3)} deep"
-        f"{unfinished}."
-    )
-    if ended(surface):
-        ends = ", ".join(as_written(place, "m") for place in ended(surface))
-        sentence += f" From {ends} the roller touched an end of the trace, where support ends."
-    return sentence
-
-
-def area(volume: float) -> str:
-    """Volume per unit length [m^2] as square micrometres."""
-    return f"{significant(volume / 1e-12, 3)} µm²"
-
-
 def picture(run: Run) -> style.Picture:
     """The surface before and after over the stretch that the contact may reach."""
     problem, run_in = run.problem, run.problem.surface.run_in
-    said = running_in_in_words(problem.scene, problem.surface)
-    words = f"The surface before and after running-in{{}}. {said}"
+    words = "The surface before and after running-in{}."
     x = np.linspace(*problem.extent, POINTS)
     before, profile = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
@@ -114,22 +89,17 @@ def files(run: Run) -> dict[str, dict[str, np.ndarray]]:
     return {"run_in_profile.csv": columns}
 
 
-def blocks(run: Run) -> list[Block]:
-    return [Block("running-in", (Pictures(("running_in",)),), "Running-in")]
-
-
-def lines(run: Run) -> list[tuple[str, str]]:
-    """How the surface was run in, whether it settled, and whether that held."""
+def advice(run: Run) -> str:
+    """Whether the surface settled, and whether that held."""
     run_in = run.problem.surface.run_in
-    text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
-    text += "settled" if run_in.status == "settled" else "not settled"
+    text = ", settled" if run_in.status == "settled" else ", not settled"
     text += "" if run_in.converged else ", not converged"
     # features finer than running-in resolved may be pressed harder than it allowed
     hardness = run_in.constraints.hardness
     peak = max(np.max(model.finest.solution.pressure) for model in run.runs.values())
     if peak > ABOVE * hardness:
         text += f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
-    return [("run in", text)]
+    return text
 
 
 STUDY = Study(
@@ -137,8 +107,18 @@ STUDY = Study(
     quantities=QUANTITIES,
     solve=solve,
     applies=lambda solved: solved.problem.surface.run_in is not None,
-    blocks=blocks,
+    title="Running-in",
+    shown=(
+        "volume_moved",
+        "largest_lowering",
+        "passes",
+        "sweeps",
+        "hardness",
+        "load_per_length",
+        "pitch",
+        "status",
+    ),
+    advice=advice,
     pictures={"running_in": picture},
     files=files,
-    lines=lines,
 )

@@ -10,12 +10,13 @@ from scenes import posed, refound
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.presentation import lines_of, parts_of
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.plan import make_plan
 from comparisons.output.page.page import render
 from comparisons.output.result_json import content_of, result_of
-from comparisons.studies.running_in import lines, picture, running_in_in_words
+from comparisons.studies.running_in import STUDY
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -51,10 +52,9 @@ class TestTelling:
 
     def test_page_and_terminal_show_it(self, outcome: Run):
         assert '<section id="running-in">' in render(outcome)
-        words = running_in_in_words(outcome.problem.scene, outcome.problem.surface)
-        assert picture(outcome).caption.endswith(words)
-        [(name, told)] = lines(outcome)
-        assert name == "run in" and told.endswith(" passes, settled")
+        [block], [(name, told)] = parts_of(STUDY, outcome), lines_of(STUDY, outcome)
+        assert ("status", "settled") in block.items[2].rows
+        assert name == "running in" and told.endswith("(half-plane), settled")
 
     def test_what_fell_short_is_told(self, outcome: Run):
         problem = outcome.problem
@@ -65,8 +65,9 @@ class TestTelling:
         plan = make_plan(replace(problem, surface=surface), MODELS)
         short = [text for text in plan.assumptions if text.startswith("running-in")][1:]
         assert "has not settled in" in short[0] and "from −30 µm" in short[1]
-        said = running_in_in_words(problem.scene, surface)
-        assert "it has not settled." in said and "an end of the trace" in said
+        moved = posed(outcome, problem=replace(problem, surface=surface))
+        [(_, said)] = lines_of(STUDY, moved)
+        assert said.endswith(", not settled")
 
     def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Run):
         assert outcome.exit_status != ExitStatus.NOT_CONVERGED
