@@ -67,12 +67,15 @@ class Convergence:
 def grid_convergence(
     values: Sequence[float], formal_order: float, resolution: float = 0.0
 ) -> Convergence:
-    """Convergence of `values` (coarse to fine, each level of half the size).
+    """Convergence of `values` (coarse to fine, each level of half the size); of what some level has
+    not, nan, nothing is known.
 
     resolution  least uncertainty with which the figure can be read on the finest grid, in its unit
     """
     levels = np.asarray(values, dtype=float)[-LEVELS:]
     value = float(levels[-1])
+    if not np.all(np.isfinite(values)):
+        return Convergence(value, value, np.inf, formal_order, None, "too few levels")
     if len(levels) < 3:
         change = abs(value - levels[0]) if len(levels) == 2 else np.inf
         left = max(TWO_GRIDS * float(change), resolution)

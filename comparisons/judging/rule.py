@@ -4,7 +4,10 @@ In: a model on its levels. Out: figures of its finest one, or differences from t
 the uncertainty that levels, the far boundary, increments of flow and iteration leave. A difference
 is a figure of its own: what the pressure elements leave out is in both models."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import zip_longest
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,76 +32,114 @@ AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the su
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
 
-def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -> dict[str, Figure]:
-    """By quantity: the model's figure [SI]; or (model - other) / other, judged where the scene has
-    a tolerance. `problem` is that of the case."""
-    both = [model] if against is None else [model, against]
-    finest, coarsest = [one.finest for one in both], [one.levels[0] for one in both[:-1]]
+@dataclass(frozen=True)
+class Reading:
+    """How a quantity is read: what is known of its figure beside the values on the levels."""
 
-    def read(*levels: Level) -> dict[str, float]:
-        values = [values_of(level, problem) for level in levels]
-        return values[0] if against is None else relative_differences(*values, problem)
+    order: float  # formal, of its convergence
+    # [SI] of the figure, or what a difference is over; all else is relative to it
+    scale: float = 1.0
+    resolution: float = 0.0  # how finely it is read
+    iteration: float = 0.0  # what is left of the contact conditions
+    least: float = 0.0  # of what discretisation leaves
+    tolerance: float | None = None  # of what is judged
+    place: tuple[float, ...] | None = None
 
-    history = [read(*levels) for levels in zip(*(one.levels for one in both), strict=True)]
-    repeated = by_repetition(both[-1], lambda level: read(*coarsest, level))
-    reference, figures = values_of(finest[-1], problem), {}
+
+def judged_by(
+    study: str,
+    models: Sequence[ModelRun],
+    read: Callable[..., Mapping[str, float]],
+    how: Callable[[str, float], Reading],
+    at: Mapping[str, float],
+    repeated: Mapping[str, tuple[float, float]] | None = None,
+) -> dict[str, Figure]:
+    """Figures by quantity of what is read off each level of a model, or of both models on the same
+    pressure elements: relative differences, which have a sequence of their own.
+
+    models    the model, and the one that it is judged against
+    read      values by quantity, of a level of each model
+    how       by quantity and its value on the finest levels
+    repeated  by the far boundary and increments of flow; as `by_repetition` has it"""
+    history = [read(*levels) for levels in zip(*(model.levels for model in models), strict=True)]
+    repeated = by_repetition(models, read) if repeated is None else repeated
+    source, against = [*(model.name for model in models), None][:2]
+    figures = {}
     for name, value in history[-1].items():
-        values = tuple(of_level[name] for of_level in history)
-        size = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
-        unsolved, resolution = iteration(*(level.solution for level in finest)), 0.0
-        if against is not None:
-            unsolved *= max(1.0, abs(1.0 + value))
-        if name == "contact_length":
-            resolution = relative_resolution(*finest) if against else edges_read(model.finest)
-        # meshes and hats lack not the same of a crest: their difference was seen to stand still on
-        # levels that lack it, and to fall from 2 % to nothing on those that come to resolve it
-        crest = max(left_by_crest(name, level) for level in finest)
-        tolerance = problem.scene.tolerances.get(name) if against else None
+        values, reading = tuple(of_level[name] for of_level in history), how(name, value)
+        unit = 1.0 if against else reading.scale
         figures[name] = Figure(
-            study=COMPARISON if against else CONTACT,
+            study=study,
             quantity=name,
-            source=model.name,
+            source=source,
             value=value,
-            at={"friction": problem.scene.load.friction[0]},
-            against=against and against.name,
-            scale=size,
+            at=at,
+            against=against,
+            scale=reading.scale,
             uncertainty=by_levels(
                 values,
-                formal_order(name, finest if against else model.levels, problem),
-                scale=1.0 if against else size,
-                resolution=resolution,
-                iteration=unsolved,
+                reading.order,
+                scale=unit,
+                resolution=reading.resolution * unit,
+                iteration=reading.iteration,
                 repeated=repeated[name],
-                least=crest,
+                least=reading.least,
             ),
-            bounds=(-tolerance, tolerance) if tolerance else None,
+            bounds=(-reading.tolerance, reading.tolerance) if reading.tolerance else None,
+            place=reading.place,
             levels=values,
         )
     return figures
 
 
+def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -> dict[str, Figure]:
+    """By quantity: the model's figure [SI]; or (model - other) / other, judged where the scene has
+    a tolerance. `problem` is that of the case."""
+    both = [model] if against is None else [model, against]
+    finest = [one.finest for one in both]
+    reference = values_of(finest[-1], problem)
+
+    def read(*levels: Level) -> dict[str, float]:
+        values = [values_of(level, problem) for level in levels]
+        return values[0] if against is None else relative_differences(*values, problem)
+
+    def how(name: str, value: float) -> Reading:
+        size = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
+        unsolved, resolution = iteration(*(level.solution for level in finest)), 0.0
+        if against is not None:
+            unsolved *= max(1.0, abs(1.0 + value))
+        if name == "contact_length":
+            resolution = relative_resolution(*finest) if against else edges_read(*finest) / size
+        return Reading(
+            order=formal_order(name, finest if against else model.levels, problem),
+            scale=size,
+            resolution=resolution,
+            iteration=unsolved,
+            # meshes and hats lack not the same of a crest: their difference was seen to stand still
+            # on levels that lack it, and to fall from 2 % to nothing on those that come to resolve
+            # it
+            least=max(left_by_crest(name, level) for level in finest),
+            tolerance=problem.scene.tolerances.get(name) if against else None,
+        )
+
+    at = {"friction": problem.scene.load.friction[0]}
+    return judged_by(COMPARISON if against else CONTACT, both, read, how, at)
+
+
 def norms_of(
     model: ModelRun, problem: Problem, against: ModelRun, window: Window | None
-) -> Iterator[Figure]:
+) -> Iterable[Figure]:
     """The norms of both models' difference. They may be equal by chance: what a repetition changes
     counts by its own norm."""
-    pairs = zip(model.levels, against.levels, strict=True)
-    history, first = [norms(*pair, window) for pair in pairs], against.levels[0]
-    repeated = by_repetition(against, lambda level: norms(level, first, window))
-    unsolved = iteration(model.finest.solution, against.finest.solution)
-    for name, size in history[-1].items():
-        values, order = tuple(of_level[name] for of_level in history), NORMS[name].formal_order
-        known = {"iteration": unsolved, "repeated": repeated[name]}
-        yield Figure(
-            study=COMPARISON,
-            quantity=name,
-            source=model.name,
-            value=size,
-            at={"friction": problem.scene.load.friction[0]},
-            against=against.name,
-            uncertainty=by_levels(values, order, **known),
-            levels=values,
-        )
+    both, first = (model, against), against.levels[0]
+    repeated = by_repetition([against], lambda level: norms(level, first, window))
+    unsolved = iteration(*(one.finest.solution for one in both))
+    at, read = {"friction": problem.scene.load.friction[0]}, partial(norms, window=window)
+
+    def how(name: str, size: float) -> Reading:
+        return Reading(NORMS[name].formal_order, iteration=unsolved)
+
+    return judged_by(COMPARISON, both, read, how, at, repeated).values()
 
 
 def values_of(level: Level, problem: Problem) -> dict[str, float]:
@@ -134,17 +175,24 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
 
 
 def by_repetition(
-    run: ModelRun, read: Callable[[Level], Mapping[str, float]]
+    models: Sequence[ModelRun], read: Callable[..., Mapping[str, float]]
 ) -> dict[str, tuple[float, float]]:
-    """Uncertainties by the far boundary and by the increments of flow of what is read off a level,
-    in its units: by the coarsest level and what it was repeated with."""
-    first, check = read(run.levels[0]), run.far_boundary_check
-    moved = first if check is None else read(check)
-    increments = [*map(read, run.longer_increments), first]
+    """Uncertainties by the far boundary and by the increments of flow of what is read off a level
+    of each model, in its units: by the coarsest levels and what these were repeated with."""
+    coarsest = [model.levels[0] for model in models]
+    first = read(*coarsest)
+    checks = [
+        read(*coarsest[:k], model.far_boundary_check, *coarsest[k + 1 :])
+        for k, model in enumerate(models)
+        if model.far_boundary_check is not None
+    ]
+    longer = zip_longest(*(model.longer_increments for model in models))
+    pairs = (zip(levels, coarsest, strict=True) for levels in longer)
+    increments = [read(*(level or first for level, first in pair)) for pair in pairs]
     return {
         name: (
-            far_boundary(moved.get(name, value), value),
-            of_increments([figures.get(name, value) for figures in increments]),
+            sum(far_boundary(moved.get(name, value), value) for moved in checks),
+            of_increments([figures.get(name, value) for figures in (*increments, first)]),
         )
         for name, value in first.items()
     }

@@ -229,7 +229,8 @@ class Level:
 
 @dataclass(frozen=True)
 class ModelRun:
-    """One model at one friction coefficient on its levels, coarse to fine."""
+    """One model at one friction coefficient on its levels, coarse to fine, or in their place what a
+    study finds on them."""
 
     name: str
     levels: tuple[Level, ...]

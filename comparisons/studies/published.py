@@ -4,7 +4,7 @@ In: a solved scene with sections [published.NAME]. Out: the difference of each m
 the published one; that of the model that has what the publication has is judged. What is published
 has a scatter s, ours an uncertainty U: they agree within s + U and differ beyond s + 3 U."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import chain
 
@@ -16,9 +16,11 @@ from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.uncertainty import by_levels, iteration
+from comparisons.figures.uncertainty import iteration
 from comparisons.judging import contact
+from comparisons.judging.rule import Reading, judged_by
 from comparisons.judging.study import Run, Solved, Study
+from comparisons.models.level import Level, ModelRun
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
 from comparisons.studies.friction import partial_slip
 
@@ -62,16 +64,20 @@ def _difference(name: str, section: PublishedSection, ours: Figure, judged: bool
     )
 
 
-def _lowering(solved: Solved) -> list[Figure]:
+def _lowering(solved: Solved) -> Iterable[Figure]:
     """Of finite elements of a body that has a base."""
-    run = solved.runs.get("finite_element")
-    if run is None or solved.problem.scene.body.thickness is None:
-        return []
-    values = [float(np.interp(0.0, one.grid.x, one.displacement)) for one in run.levels]
-    size, unsolved = values[-1], iteration(run.finest.solution)
-    stated = by_levels(values, LOWERED.formal_order, size, iteration=unsolved)
-    at = {"friction": solved.problem.scene.load.friction[0]}
-    return [Figure(NAME, LOWERING, run.name, size, at, None, size, stated, levels=tuple(values))]
+    case, thickness = solved.cases[0], solved.problem.scene.body.thickness
+    run = case.runs.get("finite_element")
+    if run is None or thickness is None:
+        return ()
+
+    def read(level: Level) -> dict[str, float]:
+        return {LOWERING: float(np.interp(0.0, level.grid.x, level.displacement))}
+
+    def how(name: str, value: float) -> Reading:
+        return Reading(LOWERED.formal_order, value, iteration=iteration(run.finest.solution))
+
+    return judged_by(NAME, [ModelRun(run.name, run.levels)], read, how, case.at).values()
 
 
 def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tuple[str, ...]]:

@@ -26,7 +26,7 @@ QUIET is three quarters: by Lundberg and Palmgren, life goes with tau^-9.3 (c/e 
 a quarter less shear lasts an order of magnitude longer."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf, isfinite, nan
 from operator import attrgetter
@@ -35,11 +35,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from comparisons.common.numbers import plain, significant
-from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
-from comparisons.figures.uncertainty import Uncertainty, iteration
-from comparisons.judging.rule import by_repetition
+from comparisons.figures.uncertainty import iteration
+from comparisons.judging.rule import Reading, judged_by
 from comparisons.judging.study import Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -160,26 +159,26 @@ def zone_figures(case: Case, run: ModelRun, window: Window) -> tuple[tuple[Figur
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
 
+    problem, unsolved = case.problem, iteration(run.finest.solution)
+    dip, coarse = (zone_of(problem, run.finest, window, every) for every in (1, 2))
+
     def read(level: Level) -> dict[str, float]:
-        dip = zone_of(case.problem, level, window)
+        dip = zone_of(problem, level, window)
         return {name: getattr(dip, name) for name in QUANTITIES}
 
-    levels, repeated = [read(level) for level in run.levels], by_repetition(run, read)
-    dip, coarse = (zone_of(case.problem, run.finest, window, every) for every in (1, 2))
-    figures = []
-    for name in QUANTITIES:
-        values, value = tuple(level[name] for level in levels), getattr(dip, name)
-        size = grid_convergence(values, ORDER).uncertainty if np.all(np.isfinite(values)) else inf
-        size += iteration(run.finest.solution) * abs(value) + abs(getattr(coarse, name) - value)
-        size = float(size + sum(repeated[name]))
-        if isfinite(value):
-            scale = abs(value) or 1.0
-            unsure = Uncertainty({"numerical": size / scale if isfinite(size) else inf})
-            named = NAME, name, run.name, value, case.at
-            figures.append(Figure(*named, scale=scale, uncertainty=unsure, levels=values))
-        if name == "ratio":
-            is_unclear = abs(value - QUIET) <= size
-    return tuple(figures), UNCLEAR if is_unclear else dip.status
+    def how(name: str, value: float) -> Reading:
+        return Reading(ORDER, abs(value) or 1.0, iteration=unsolved * bool(value))
+
+    figures = {}
+    for name, figure in judged_by(NAME, [run], read, how, case.at).items():
+        stated, apart = figure.uncertainty, abs(getattr(coarse, name) - figure.value) / figure.scale
+        parts = {**stated.parts, "reading": apart}
+        parts = {cause: size if isfinite(size) else inf for cause, size in parts.items()}
+        if isfinite(figure.value):
+            figures[name] = replace(figure, uncertainty=replace(stated, parts=parts))
+    ratio = figures["ratio"]
+    is_unclear = abs(ratio.value - QUIET) <= ratio.numerical * ratio.scale
+    return tuple(figures.values()), UNCLEAR if is_unclear else dip.status
 
 
 def needs(solved: Solved) -> str | None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 from math import ceil
 
@@ -41,6 +42,7 @@ Beside = Callable[[np.ndarray, np.ndarray], StressState]
 class SlippedLevel:
     """After each of the scene's m loads."""
 
+    path: tuple[float, ...]  # the loads, over that of sliding
     grid: HatGrid
     states: tuple[SlipState, ...]
     zones: tuple[np.ndarray, ...]  # (k, 2) [m] that stick, of each
@@ -62,8 +64,9 @@ class SlippedLevel:
         """Largest residual of all states."""
         return max(state.residual for state in self.states)
 
-    def figures(self, path: tuple[float, ...]) -> dict[str, float]:
-        """At the end of a path of loads."""
+    @cached_property
+    def figures(self) -> dict[str, float]:
+        """At the end of the path of loads."""
         normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
         edges = contact_patches(self.grid.x, normal.pressure, normal.gap)
         touching = self.grid.x[normal.pressure > 0.0]
@@ -72,26 +75,26 @@ class SlippedLevel:
             "stick_ratio": stuck / float(np.ptp(edges, axis=1).sum()),
             "tangential_displacement": float(self.displacements[-1]),
             "energy_lost": float(self.energies[-1]),
-            "slip_amplitude": float(self.amplitude(path, np.append(touching, edges)).max()),
+            "slip_amplitude": float(self.amplitude(np.append(touching, edges)).max()),
         }
         known["held_pressure"] = float(normal.pressure.max())
         if self.lowering is not None:
             known["held_lowering"] = self.lowering
-        if not any(path):  # symmetry alone
+        if not any(self.path):  # symmetry alone
             del known["tangential_displacement"]
-        before = last_visit(path)
+        before = last_visit(self.path)
         if before is not None:
             known["energy_of_cycle"] = float(self.energies[-1] - self.energies[before])
         if self.tau1 is not None:
             known["edge_tension"] = float(np.nanmax(self.surface.sx))
             known["tau1_slip"] = self.tau1.value
-            known |= self.fatigue(path)
+            known |= self.fatigue()
         return known
 
-    def amplitude(self, path: tuple[float, ...], x: np.ndarray) -> np.ndarray:
+    def amplitude(self, x: np.ndarray) -> np.ndarray:
         """Of slip (k,) [m] at x (k,) [m]: half of what a cycle runs through; without one what was
         slipped, as much as in a cycle between the load and its opposite."""
-        before = last_visit(path)
+        before = last_visit(self.path)
         span = np.abs(self.slips[-1])
         if before is not None:
             span = 0.5 * np.ptp(self.slips[before:], axis=0)
@@ -102,9 +105,9 @@ class SlippedLevel:
             span[outside] = np.maximum(2.0 * span[end] - span[beside], 0.0)
         return np.interp(x, self.grid.x, span)
 
-    def fatigue(self, path: tuple[float, ...]) -> dict[str, float]:
-        """Ruiz' parameter at the end of a path, and with a cycle Smith, Watson and Topper's."""
-        amplitude, last = self.amplitude(path, self.x), self.surface
+    def fatigue(self) -> dict[str, float]:
+        """Ruiz' parameter at the end of the path, and with a cycle Smith, Watson and Topper's."""
+        amplitude, last = self.amplitude(self.x), self.surface
         known = {"ruiz": ruiz(last.sx, last.txz, amplitude)}
         if self.opposite is not None:
             parameter = smith_watson_topper(last, self.opposite, self.material)
@@ -223,6 +226,7 @@ def slipped_level(
         moved.append(state.displacement - np.interp(coarsest, grid.x, carried).mean())
     zones = tuple(stick_zones(grid.x, state, pair.friction) for state in states)
     return SlippedLevel(
+        path=problem.scene.partial_slip.path,
         grid=grid,
         states=tuple(states),
         zones=zones,

@@ -4,26 +4,19 @@ In: a solved scene with [partial_slip], of which each level is loaded again alon
 figures at its end with their uncertainties, the models' difference judged as any other, zones and
 loads as series. At the scene's largest friction coefficient."""
 
-import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from math import inf
 
 import numpy as np
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, columns_of
-from comparisons.figures.quantity import MODELS, Quantity
-from comparisons.figures.uncertainty import (
-    PRESSURE_PER_RESIDUAL,
-    Uncertainty,
-    by_levels,
-    far_boundary,
-    length_resolution,
-    of_increments,
-)
-from comparisons.judging.study import CONVERGED, WHY_NOT, Solved
-from comparisons.models.level import Level
+from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
+from comparisons.figures.quantity import Quantity
+from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution
+from comparisons.judging.rule import Reading, judged_by
+from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved
+from comparisons.models.level import Level, ModelRun
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import SlippedLevel, half_plane_slip
@@ -56,41 +49,26 @@ AT_AN_END = {"edge_tension": 1.0, "ruiz": 1.0, "smith_watson_topper": 2.0}
 Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
 
 
-@dataclass(frozen=True)
-class ModelSlip:
-    """One model's histories, by level."""
-
-    levels: tuple[SlippedLevel, ...]
-    smaller: SlippedLevel | None = None  # the coarsest on a block of half the size
-    fewer: SlippedLevel | None = None  # the coarsest by half as many increments
-    most_order: float = math.inf  # of convergence, that its elements have
-
-    @property
-    def finest(self) -> SlippedLevel:
-        return self.levels[-1]
-
-
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Every level of every model that was run is loaded along the path."""
-    problem, path = solved.problem, solved.problem.scene.partial_slip.path
-    at, models, said = {"friction": problem.largest_friction}, {}, []
-    for name, solve_level in solvers(solved).items():
+    problem, case = solved.problem, solved.case(solved.problem.largest_friction)
+    models, figures, series, said = {}, [], [], []
+    for name, load in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
-        models[name] = _model_slip(solved, name, solve_level)
-        settled = all(s.converged for level in models[name].levels for s in level.states)
-        said.append(Statement(CONVERGED, "yes" if settled else "no", name, at))
+        model = models[name] = _loaded(case.runs[name], load, problem.scene.partial_slip.increments)
+        settled = all(s.converged for level in model.levels for s in level.states)
+        said.append(Statement(CONVERGED, "yes" if settled else "no", name, case.at))
+        known = slip_figures(case, [model])
+        figures += known.values()
+        series += _series(model, case.at, known)
     if problem.scene.finite_element.plastic and "finite_element" in solved.runs:
-        said.append(Statement(WHY_NOT, OF_FLOW, "finite_element", at))
-    figures, series = list(_figures(solved, models)), []
-    for name, model in models.items():
-        known = Figures(figures).of(source=name, against=None)
-        series += _series(name, model.finest, path, at, known)
+        said.append(Statement(WHY_NOT, OF_FLOW, "finite_element", case.at))
+    if len(models) > 1:
+        figures += slip_figures(case, list(models.values())).values()
     outside = before.get(answers.NAME)
     if outside is not None and models:
-        name, model = list(models.items())[-1]
-        stuck = Figures(figures).one(quantity="stick_length", source=name, against=None)
-        slip = problem.scene.partial_slip
-        figures += outside_figures(outside.data, model.levels, stuck, slip.tolerance)
+        tolerance = problem.scene.partial_slip.tolerance
+        figures += outside_figures(outside.data, model.levels, known["stick_length"], tolerance)
     finest = {name: model.finest for name, model in models.items()}
     return Findings(tuple(figures), tuple(series), tuple(said), finest)
 
@@ -108,109 +86,64 @@ def solvers(solved: Solved) -> dict[str, Solve]:
     return solvers
 
 
-def _model_slip(solved: Solved, name: str, solve_level: Solve) -> ModelSlip:
-    case = solved.case(solved.problem.largest_friction)
-    run, count = case.runs[name], solved.problem.scene.partial_slip.increments
-    levels = tuple(solve_level(level, count) for level in run.levels)
-    smaller = fewer = None
+def _loaded(run: ModelRun, load: Solve, count: int) -> ModelRun:
+    """A model's levels under the path of loads, the coarsest also on a block of half the size and
+    by half as many increments."""
+    levels, smaller, fewer = tuple(load(level, count) for level in run.levels), None, ()
     if run.far_boundary_check is not None:
-        smaller = solve_level(run.levels[0], count, half_block=True)
+        smaller = load(run.levels[0], count, half_block=True)
     if levels[0].is_stepped:
-        fewer = solve_level(run.levels[0], count // 2)
-    most = solved.problem.scene.finite_element.most_order
-    return ModelSlip(levels, smaller, fewer, most if name == "finite_element" else math.inf)
+        fewer = (load(run.levels[0], count // 2),)
+    return ModelRun(run.name, levels, smaller, fewer)
 
 
-def _figures(solved: Solved, models: Mapping[str, ModelSlip]) -> Iterator[Figure]:
-    """By each model, and their difference over the finite elements' figure."""
-    slip = solved.problem.scene.partial_slip
-    common = {"study": NAME, "at": {"friction": solved.problem.largest_friction}}
-    for name in QUANTITIES:
-        known = {n: m for n, m in models.items() if name in m.finest.figures(slip.path)}
-        for source, model in known.items():
-            value = model.finest.figures(slip.path)[name]
-            scale = abs(value) or 1.0
-            yield Figure(
-                quantity=name,
-                source=source,
-                value=value,
-                scale=scale,
-                uncertainty=_uncertainty(slip.path, name, scale, (model,)),
-                place=model.finest.places.get(name),
-                levels=tuple(level.figures(slip.path)[name] for level in model.levels),
-                **common,
-            )
-        if set(known) == set(MODELS) and name in COMPARED:
-            pair = tuple(known[source] for source in MODELS)
-            one, other = (model.finest.figures(slip.path)[name] for model in pair)
-            scale = abs(other) or abs(one) or 1.0
-            yield Figure(
-                quantity=name,
-                source=MODELS[0],
-                value=(one - other) / scale,
-                against=MODELS[1],
-                scale=scale,
-                uncertainty=_uncertainty(slip.path, name, scale, pair),
-                bounds=(-slip.tolerance, slip.tolerance),
-                **common,
-            )
+def slip_figures(case: Case, models: Sequence[ModelRun]) -> dict[str, Figure]:
+    """By a model, or both models' difference over the finite elements' figure."""
+    slip, meshed = case.problem.scene.partial_slip, case.problem.scene.finite_element
+    finest, apart = [model.finest for model in models], len(models) > 1
+    ends = [level.figures for level in finest]
+    names = [n for n in (COMPARED if apart else QUANTITIES) if all(n in end for end in ends)]
+    sizes = {n: abs(ends[-1][n]) or abs(ends[0][n]) or 1.0 for n in names}
+    unsolved = PRESSURE_PER_RESIDUAL * sum(level.worst for level in finest)
+    edges = sum(length_resolution(one.grid.pitch, len(one.zones[-1])) for one in finest)
+    order = meshed.most_order if models[-1].name == "finite_element" else inf
 
+    def read(*levels: SlippedLevel) -> dict[str, float]:
+        one, *other = (level.figures for level in levels)
+        return {n: (one[n] - other[0][n]) / sizes[n] if other else one[n] for n in names}
 
-def _uncertainty(
-    path: tuple[float, ...], name: str, scale: float, models: tuple[ModelSlip, ...]
-) -> Uncertainty:
-    """Of one model's figure, or of the difference of two on the same pressure elements: what both
-    leave out alike is not in it."""
+    def how(name: str, value: float) -> Reading:
+        resolution = END_READ * AT_AN_END.get(name, 0.0)
+        if name in LENGTHS and ends[0][name]:
+            resolution += edges * ends[0][name] / ends[0]["stick_length"] / sizes[name]
+        return Reading(
+            min(QUANTITIES[name].formal_order, order),
+            sizes[name],
+            resolution,
+            unsolved,
+            tolerance=slip.tolerance if apart else None,
+            place=None if apart else finest[0].places.get(name),
+        )
 
-    def of(*levels: SlippedLevel | None) -> float:
-        one, *other = (level.figures(path)[name] for level in levels)
-        return one - other[0] if other else one
-
-    values = [of(*levels) for levels in zip(*(model.levels for model in models), strict=True)]
-    resolution = 0.0
-    if name in LENGTHS:
-        ends = (length_resolution(m.finest.grid.pitch, len(m.finest.zones[-1])) for m in models)
-        known = models[0].finest.figures(path)
-        resolution = sum(ends) * (known[name] / known["stick_length"] if known[name] else 0.0)
-    resolution += END_READ * AT_AN_END.get(name, 0.0) * scale
-    order = min(QUANTITIES[name].formal_order, *(model.most_order for model in models))
-    domain = sum(
-        far_boundary(of(model.smaller), of(model.levels[0])) for model in models if model.smaller
-    )
-    increments = 0.0
-    if any(model.fewer for model in models):
-        fewer = [model.fewer or model.levels[0] for model in models]
-        increments = of_increments([of(*fewer), of(*(model.levels[0] for model in models))])
-    worst = sum(PRESSURE_PER_RESIDUAL * model.finest.worst for model in models)
-    repeated = domain, increments
-    return by_levels(values, order, scale, resolution, iteration=worst, repeated=repeated)
+    return judged_by(NAME, models, read, how, case.at)
 
 
 def _series(
-    name: str,
-    level: SlippedLevel,
-    path: tuple[float, ...],
-    at: Mapping[str, float],
-    figures: Figures,
-) -> list[Series]:
+    model: ModelRun, at: Mapping[str, float], figures: Mapping[str, Figure]
+) -> tuple[Series, Series]:
     """Zones at the end, and the path, as certain as the figures at its end."""
-    columns = {
+    level = model.finest
+    read = (2.0 * level.grid.pitch,) * len(level.zones[-1])
+    ends = zip(("start", "stop"), level.zones[-1].T.tolist(), strict=True)
+    zones = {name: Column(tuple(x), "m", read) for name, x in ends}
+    along = {
         "stick_length": [float(np.ptp(zones, axis=1).sum()) for zones in level.zones],
         "tangential_displacement": level.displacements.tolist(),
         "energy_lost": level.energies.tolist(),
     }
-    columns = {k: values for k, values in columns.items() if figures.one(quantity=k) is not None}
-    table = zip(path, *columns.values(), strict=True)
-    rows = [dict(zip(("load", *columns), row, strict=True)) for row in table]
-    units = {key: QUANTITIES[key].unit for key in columns}
-    unsure = {
-        key: [figures.one(quantity=key).numerical * max(map(abs, values))] * len(path)
-        for key, values in columns.items()
-    }
-    ends = [{"start": float(start), "stop": float(stop)} for start, stop in level.zones[-1]]
-    read = {key: [2.0 * level.grid.pitch] * len(ends) for key in ("start", "stop")}
-    zones = columns_of(ends, {"start": "m", "stop": "m"}, read)
-    return [
-        Series("stick_zones", zones, name, at),
-        Series("history", columns_of(rows, units, unsure), name, at),
-    ]
+    history = {"load": Column(level.path)}
+    for name, values in along.items():
+        if name in figures:
+            unsure = (figures[name].numerical * max(map(abs, values)),) * len(values)
+            history[name] = Column(tuple(values), QUANTITIES[name].unit, unsure)
+    return Series("stick_zones", zones, model.name, at), Series("history", history, model.name, at)

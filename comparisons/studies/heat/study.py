@@ -4,10 +4,8 @@ The half-space takes the half-plane's pressures, the finite elements their own, 
 difference has what both theories leave out: OTHER_PRESSURES is the part of it that the half-space
 finds under the finite elements' pressures. One rule judges it, as everything else."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import partial
-from itertools import product
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,14 +13,13 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
 from comparisons.figures.quantity import MODELS, Quantity
-from comparisons.figures.uncertainty import Uncertainty, far_boundary, iteration, peak_resolution
-from comparisons.judging.study import Solved
-from comparisons.models.level import Level, ModelRun
+from comparisons.figures.uncertainty import Uncertainty, iteration, peak_resolution
+from comparisons.judging.rule import Reading, judged_by
+from comparisons.judging.study import Case, Solved
+from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
     HEAT_QUANTITIES,
-    HEATED,
     WITHOUT,
     HeatedContact,
     HeatedStress,
@@ -50,7 +47,7 @@ QUANTITIES = {
 OTHER_PRESSURES = "other pressures"  # the part of a difference that these make
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
-Histories = dict[str, list[HeatedContact] | list[HeatedStress]]  # by model, on every level
+Heated = HeatedContact | HeatedStress
 
 
 @dataclass(frozen=True)
@@ -76,156 +73,130 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison; what older rules say, and in words what the
     finite elements have."""
+    from comparisons.studies.heat import finite_elements as meshed
+
     case = max(solved.cases, key=lambda case: case.friction)
-    problem, friction, runs = case.problem, case.friction, case.runs
+    problem = case.problem
     tasks.callback("frictional heat")
-    contains = what_it_contains(problem) if "finite_element" in runs else {}
-    figures, finest = _heat_figures(problem, runs, contains)
-    stresses: dict[str, HeatedStress] = {}
+    contains = what_it_contains(problem) if "finite_element" in case.runs else {}
+    models = _heated(case, half_space_heat, meshed.finite_element_heat, block=0.5)
+    contacts = {model.name: model.finest for model in models}
+    figures, stresses = _figures(case, models, _parts(case, models, contains)), {}
     if problem.scene.heat.stresses:
         tasks.callback("thermal stresses")
-        of_stresses, stresses = _stress_figures(problem, runs, solved.window)
-        figures += of_stresses
-    model, contact = next(iter(finest.items()))
-    stated = {f.quantity: f.uncertainty for f in figures if (f.source, f.against) == (model, None)}
-    at = {"friction": friction}
-    peclet = [
-        figure
-        for body, number in peclet_numbers(problem).items()
-        for figure in figures_of(NAME, body, {"peclet_number": number}, None, at)
-    ]
-    rules = [
-        figure
-        for rule, values in _rules(problem, contact).items()
-        for quantity, value in values.items()
-        for figure in figures_of(NAME, rule, {quantity: value}, stated[quantity], at)
-    ]
+        solvers = half_plane_stress, meshed.finite_element_stress
+        models = _heated(case, *solvers, solved.window, beyond=0.5)
+        stresses = {model.name: model.finest for model in models}
+        figures += _figures(case, models)
+    contact = next(iter(contacts.values()))
+    for body, number in peclet_numbers(problem).items():
+        figures += figures_of(NAME, body, {"peclet_number": number}, at=case.at)
+    stated = {figure.quantity: figure.uncertainty.parts for figure in figures[::-1]}
+    for rule, values in _rules(problem, contact).items():
+        for quantity, value in values.items():
+            sure = Uncertainty(stated[quantity])
+            figures += figures_of(NAME, rule, {quantity: value}, sure, case.at)
     said = tuple(Statement("the finite elements have", text, n) for n, text in contains.items())
-    data = HeatStudy(finest, contains, stresses, *_subsurface(problem, contact))
-    return Findings((*peclet, *figures, *rules), statements=said, data=data)
+    data = HeatStudy(contacts, contains, stresses, *_subsurface(problem, contact))
+    return Findings(tuple(figures), statements=said, data=data)
 
 
-def _heat_figures(
-    problem: Problem, runs: Mapping[str, ModelRun], features: Iterable[str]
-) -> tuple[list[Figure], dict[str, HeatedContact]]:
-    """The figures, with what each of the finite elements' `features` (`what_it_contains`) does, and
-    both models' contacts on the finest level."""
-    from comparisons.studies.heat.finite_elements import finite_element_heat
-
-    solve = {
-        "half_plane": partial(half_space_heat, problem),
-        "finite_element": partial(finite_element_heat, problem),
-    }
-    smaller = partial(finite_element_heat, problem, block=0.5)
-    histories, domain = _histories(runs, solve, smaller)
-    dropped = {}
-    for feature in features:
-        levels = runs["finite_element"].levels
-        bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
-        dropped[feature] = list(zip(bare, histories["finite_element"], strict=True))
-    figures = []
-    for name in HEAT_QUANTITIES:
-        parts = [_effect(feature, pairs, name) for feature, pairs in dropped.items()]
-        figures += _figures(problem, runs, histories, domain, name, parts)
-    return figures, {name: history[-1] for name, history in histories.items()}
-
-
-def _stress_figures(
-    problem: Problem, runs: Mapping[str, ModelRun], window: Window
-) -> tuple[list[Figure], dict[str, HeatedStress]]:
-    """Thermal stresses with those of the contact, and both models' on the finest level."""
-    from comparisons.studies.heat.finite_elements import finite_element_stress
-
-    solve = {
-        "half_plane": partial(half_plane_stress, problem, window=window),
-        "finite_element": partial(finite_element_stress, problem, window=window),
-    }
-    smaller = partial(finite_element_stress, problem, window=window, beyond=0.5)
-    histories, domain = _histories(runs, solve, smaller)
-    figures = [f for name in HEATED for f in _figures(problem, runs, histories, domain, name, [])]
-    return figures, {name: history[-1] for name, history in histories.items()}
-
-
-def _histories(
-    runs: Mapping[str, ModelRun],
-    solve: Mapping[str, Callable[[Level], HeatedContact | HeatedStress]],
-    smaller: Callable[[Level], HeatedContact | HeatedStress],
-) -> tuple[Histories, dict[str, float]]:
-    """What each model finds on its levels; and, by figure, what the far boundary leaves in the
-    finite elements', by the coarsest level on a `smaller` block."""
-    histories = {name: [solve[name](level) for level in run.levels] for name, run in runs.items()}
-    if "finite_element" not in runs:
-        return histories, {}
-    run, whole = runs["finite_element"], histories["finite_element"][0].figures
-    moved = smaller(run.far_boundary_check or run.levels[0]).figures
-    return histories, {name: far_boundary(moved[name], whole[name]) for name in whole}
+def _heated(
+    case: Case,
+    by_half_plane: Callable[..., Heated],
+    by_elements: Callable[..., Heated],
+    *posed: object,
+    **smaller: float,
+) -> list[ModelRun]:
+    """What each model finds on its levels, of what is `posed`; finite elements also on the coarsest
+    in a `smaller` block."""
+    models, solvers = [], dict(zip(MODELS, (by_half_plane, by_elements), strict=True))
+    for name, run in case.runs.items():
+        solve, check = solvers[name], None
+        levels = tuple(solve(case.problem, level, *posed) for level in run.levels)
+        if solve is by_elements:
+            first = run.far_boundary_check or run.levels[0]
+            check = solve(case.problem, first, *posed, **smaller)
+        models.append(ModelRun(name, levels, check))
+    return models
 
 
 def _figures(
-    problem: Problem,
-    runs: Mapping[str, ModelRun],
-    histories: Histories,
-    domain: Mapping[str, float],
-    name: str,
-    parts: list[Part],
-) -> Iterator[Figure]:
-    """One quantity by each model, with heat and without, and their difference. Both models'
-    uncertainties add up: next to the ends of contact, where the flux is infinite, they discretise
-    it each in its own way. All is over the finite elements' value; of stresses over that without
-    heat where it is larger, as heat may cancel it; of depths over a.
+    case: Case, models: Sequence[ModelRun], parts: Mapping[str, Sequence[Part]] = {}
+) -> list[Figure]:
+    """By each model, with heat and without, and their differences. Both models' uncertainties add
+    up: next to the ends of contact, where the flux is infinite, they discretise it each in its own
+    way. All is over the finite elements' value; of stresses over that without heat where it is
+    larger, as heat may cancel it; of depths over a."""
+    reference, a = models[-1].finest.figures, case.problem.hertz.half_width
 
-    parts  of each feature that the finite elements alone have, what the figure is without it, over
-           what it is with it, less 1"""
-    values = {model: history[-1].figures for model, history in histories.items()}
-    names = [n for n in (f"{name}{WITHOUT}", name) if n in values[list(values)[-1]]]
-    size = max(abs(values[list(values)[-1]][n]) for n in names)
-    size = problem.hertz.half_width if name == "tau1_depth_heated" else size
-    common = {"study": NAME, "at": {"friction": problem.largest_friction}, "scale": size}
-    uncertainties, alone = {}, len(values) == 1
-    for (model, history), quantity in product(histories.items(), names):
-        solution, place = runs[model].finest.solution, history[-1].places.get(quantity)
+    def size(name: str) -> float:
+        both = name.removesuffix(WITHOUT), name.removesuffix(WITHOUT) + WITHOUT
+        return a if "depth" in name else max(abs(reference.get(one, 0.0)) for one in both)
+
+    sizes, tolerance = {name: size(name) for name in reference}, case.problem.scene.heat.tolerance
+    *found, last = by_model = [_by_model(case, model, sizes) for model in models]
+    for name in parts if not found else ():
+        last[name] = replace(last[name], parts=tuple(parts[name]))
+    differences = [
+        replace(
+            figure,
+            value=(figure.value - last[name].value) / figure.scale,
+            against=last[name].source,
+            uncertainty=Uncertainty({f.source: f.numerical for f in (figure, last[name])}),
+            bounds=(-tolerance, tolerance),
+            parts=tuple(parts.get(name, ())),
+            place=None,
+            levels=(),
+        )
+        for name, figure in (found[0] if found else {}).items()
+        if not name.endswith(WITHOUT)
+    ]
+    return [*(figure for of_model in by_model for figure in of_model.values()), *differences]
+
+
+def _by_model(case: Case, model: ModelRun, sizes: Mapping[str, float]) -> dict[str, Figure]:
+    solution, places = case.runs[model.name].finest.solution, model.finest.places
+
+    def how(name: str, value: float) -> Reading:
+        size, place = sizes[name], places.get(name)
         # at the surface stress is as certain as the pressure there
         read = peak_resolution(solution.pressure) if place and place[1:] == (0.0,) else 0.0
-        levels = [known.figures[quantity] for known in history]
-        left = grid_convergence(levels, FORMAL_ORDER, read * levels[-1]).uncertainty
-        left += domain[quantity] if model == "finite_element" else 0.0
+        return Reading(FORMAL_ORDER, size, read * value / size, iteration(solution), place=place)
+
+    figures = judged_by(NAME, [model], lambda heated: heated.figures, how, case.at)
+    if (tension := figures.get("sx_heated")) is not None:
         # what heat takes back is as uncertain as before
-        least = uncertainties.get((f"{name}{WITHOUT}", model), 0.0) if name == "sx_heated" else 0.0
-        uncertainties[quantity, model] = max(least, left / size + iteration(solution))
-        yield Figure(
-            quantity=quantity,
-            source=model,
-            value=levels[-1],
-            uncertainty=Uncertainty({"numerical": uncertainties[quantity, model]}),
-            parts=tuple(parts) if alone and model == "finite_element" else (),
-            place=place,
-            **common,
-        )
-    if alone:
-        return
-    one, other = (values[model][name] for model in MODELS)
-    if len(names) == 1:
-        under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
-        share = (one - under_theirs) / size
-        parts = [*parts, Part(OTHER_PRESSURES, share)]
-    tolerance = problem.scene.heat.tolerance
-    yield Figure(
-        quantity=name,
-        source="half_plane",
-        value=(one - other) / size,
-        against="finite_element",
-        uncertainty=Uncertainty({model: uncertainties[name, model] for model in MODELS}),
-        bounds=(-tolerance, tolerance),
-        parts=tuple(parts),
-        **common,
-    )
+        pair = figures[f"sx_heated{WITHOUT}"], tension
+        worst = max(pair, key=lambda figure: figure.numerical).uncertainty
+        sure = replace(tension.uncertainty, parts=worst.parts)
+        figures["sx_heated"] = replace(tension, uncertainty=sure)
+    return figures
 
 
-def _effect(feature: str, pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> Part:
-    """Of what the first of each pair has not and the second has, on every level."""
-    moved = [bare.figures[name] / whole.figures[name] - 1.0 for bare, whole in pairs]
-    change = grid_convergence(moved, FORMAL_ORDER)
-    return Part(feature, change.value, change.uncertainty)
+def _parts(
+    case: Case, models: Sequence[ModelRun], features: Iterable[str]
+) -> dict[str, list[Part]]:
+    """By figure: of each of the `features` that the finite elements alone have what it is without
+    that, over what it is with it, less 1; of both models' difference also what their pressures
+    make."""
+    from comparisons.studies.heat.finite_elements import finite_element_heat
+
+    problem, last = case.problem, models[-1]
+    parts, run = {name: [] for name in HEAT_QUANTITIES}, case.runs[last.name]
+    for feature in features:
+        bare = [finite_element_heat(problem, one, without={feature}).figures for one in run.levels]
+        for name in parts:
+            pairs = zip(bare, last.levels, strict=True)
+            moved = [without[name] / whole.figures[name] - 1.0 for without, whole in pairs]
+            change = grid_convergence(moved, FORMAL_ORDER)
+            parts[name].append(Part(feature, change.value, change.uncertainty))
+    if len(models) > 1:
+        ours, under_theirs = models[0].finest.figures, half_space_heat(problem, run.finest).figures
+        for name in parts:
+            share = (ours[name] - under_theirs[name]) / abs(last.finest.figures[name])
+            parts[name].append(Part(OTHER_PRESSURES, share))
+    return parts
 
 
 def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:

@@ -77,7 +77,7 @@ def test_the_largest_tension_of_rough_contact_is_at_an_end_of_it():
     roller = {"radius": 7.5706e-3, **STEEL}
     posed = problem(SMOOTH | {"roller": roller, "profile": waves, "load": load})
     level = half_plane_at(posed, posed.pitches[-1])
-    figures = half_plane_slip(posed, level, window_of(posed), 1).figures((0.5, -0.5, 0.5))
+    figures = half_plane_slip(posed, level, window_of(posed), 1).figures
     tension = 931.1e6
     assert figures["edge_tension"] == pytest.approx(tension, rel=2e-3)
     reversed_tension = 0.5 * tension**2 / posed.modulus
@@ -99,9 +99,8 @@ def test_surfaces_that_are_apart_do_not_slip():
     pressures = np.array([state.normal.pressure for state in slipped.states])
     apart = (pressures.min(axis=0) == 0.0) & (pressures.max(axis=0) > 0.0)
     assert apart.sum() >= 2
-    path = posed.scene.partial_slip.path
-    assert slipped.figures(path)["slip_amplitude"] == pytest.approx(0.549e-6, rel=0.01)
-    span = slipped.amplitude(path, slipped.grid.x)
+    assert slipped.figures["slip_amplitude"] == pytest.approx(0.549e-6, rel=0.01)
+    span = slipped.amplitude(slipped.grid.x)
     always = pressures.min(axis=0) > 0.0
     assert span[apart & (pressures[-1] > 0.0)].max() < span[always].max()
 
@@ -149,9 +148,8 @@ def test_unlike_bodies_are_loaded_alike_by_both_models(roller):
     one = half_plane_slip(posed, level, None, 3)
     other = finite_element_slip(posed, make_plan(posed, MODELS), None, level, 3)
     assert all(state.converged for state in (*one.states, *other.states))
-    path = posed.scene.partial_slip.path
-    for name, value in one.figures(path).items():
-        assert value == pytest.approx(other.figures(path)[name], rel=0.02)
+    for name, value in one.figures.items():
+        assert value == pytest.approx(other.figures[name], rel=0.02)
 
 
 @pytest.mark.parametrize("factor, verdict", [(1.0, "agree"), (1.4, "differ")])

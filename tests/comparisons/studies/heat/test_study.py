@@ -16,9 +16,8 @@ from comparisons.output.junit import run_cases_of
 from comparisons.output.record import read_result
 from comparisons.runs.run import run
 from comparisons.studies.heat import STUDY
-from comparisons.studies.heat.half_space import HEAT_QUANTITIES
+from comparisons.studies.heat.half_space import HEAT_QUANTITIES, HEATED, WITHOUT
 from comparisons.studies.heat.show import heat_facts
-from comparisons.studies.heat.study import HEATED, WITHOUT
 
 TRACE = changed(GROUND, load={"friction": [0.0, 0.1]}) | {
     "heat": {"speed": 1.0, **BOTH_CONDUCT},
