@@ -22,8 +22,9 @@ from comparisons.common.errors import InputError, nearest
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.units import describe
+from comparisons.drawing.tables import in_its_unit
 from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.quantity import MODELS, models_named
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, models_named
 from comparisons.judging import study
 from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import (
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
 
-SHOWN = 4  # figures of a run that is printed
+SHOWN = 3  # figures of a run that is printed
 COLUMNS = 100  # of text; a notebook's cell is as wide
 PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
 
@@ -183,24 +184,11 @@ class FinishedRun(RecordedRun):
     def __repr__(self) -> str:
         """In ten lines: title, the verdict, the first figures and what to do next. A notebook
         shows the tables of the command line."""
-        from comparisons.judging.model_error.show import error_table
         from comparisons.judging.verdict.headline import headline, verdicts
-        from comparisons.output.page.tables.comparison import comparison_table
 
         run, said = self.outcome, headline(self.outcome)
-        if run.plan.compares:
-            rows = [
-                f"{name:14}  {friction:6}  half-plane {half_plane}, whole {whole}: error {error} ± "
-                f"{unsure}"
-                for name, friction, half_plane, whole, error, unsure, *_ in error_table(
-                    run, brief=True
-                ).rows
-            ]
-        else:
-            rows = [
-                f"{name:14}  {friction:6}  {value}  {of_hertz:>11}"
-                for name, friction, value, of_hertz in comparison_table(run, brief=True).rows
-            ]
+        figures = run.model_errors or run.figures.of(study="contact")
+        rows = [_line(figure) for figure in figures if figure.quantity in QUANTITIES]
         left = len(rows) - SHOWN
         more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
         first = said.within.sentence, *("  ".join(verdict) for verdict in verdicts(run, said))
@@ -464,6 +452,14 @@ def _drawn(draw: Callable, content: object) -> "list[Axes]":
 
     with collected_figures():
         return draw(content).axes
+
+
+def _line(figure: Figure) -> str:
+    """A model error, or a model's figure, with what is uncertain of it."""
+    said = f"{LABELS[figure.source]} {in_its_unit(figure, QUANTITIES)}"
+    if figure.against is not None:
+        said = f"{figure.words()}, against the {LABELS[figure.against]}"
+    return f"{QUANTITIES[figure.quantity].short:14}  {figure.friction:<6g}  {said}"
 
 
 def _place(at: Mapping[str, float]) -> str:

@@ -47,7 +47,7 @@ def stated(figure: Figure | None, scale: Scale = PURE) -> str:
     if figure is None:
         return ""
     value, size = (number / scale.factor for number in (figure.value, _size(figure)))
-    if not isfinite(size) or size == 0.0:
+    if not (isfinite(value) and isfinite(size)) or size == 0.0:
         return scale.named(significant(value, 3 if size else 4))
     last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
     size = max(size, 10.0**last)

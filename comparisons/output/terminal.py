@@ -25,16 +25,14 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-NARROW = {"friction": "mu", "difference": "differ.\n%", "uncertainty": "uncert.\n%"}
-NARROW |= {"tolerance": "tol.\n%"}  # heads of columns
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged", "no", "NO"), "bold red")
 STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt", ord("δ"): "delta", ord("κ"): "kappa"}
-HEADS = {"friction": "mu", "half-plane": "half-\nplane", "whole model": "whole\nmodel"}
-HEADS |= {"layered half-plane": "layered\nhalf-\nplane", "finite elements": "finite\nelements"}
+HEADS = {"friction": "mu", "half-plane": "half-\nplane", "mostly by, %": "mostly by, %"}
+HEADS |= {"layered half-plane": "layered\nhalf-\nplane"}
 HEADS |= {"difference": "differ.\n%", "uncertainty": "uncert.\n%", "tolerance": "tol.\n%"}
 SHORT = {name: quantity.short.translate(PLAIN) for name, quantity in COMPARED.items()}
 
@@ -78,9 +76,7 @@ def cost_summary(run: Run) -> "RenderableType":
     from rich.text import Text
 
     found = run.findings[cost.NAME]
-    shown = cost.table(found)
-    numbers = (head.replace(" ", "\n") for head in shown.head[1:])
-    table = plain_table(shown.head[0], numbers=numbers, rows=map(_bare, shown.rows))
+    table = _brief(cost.table(found))
     said = [Text(line.translate(PLAIN)) for line in cost.notes(found)]
     return Group(Text(one_line(run.problem.scene.title), style="bold"), "", table, "", *said)
 
@@ -123,9 +119,11 @@ def _brief(
 ) -> "Table":
     """A table of figures in 80 columns."""
     kept = [k for k, name in enumerate(shown.head) if name not in left_out]
-    first, *numbers = ((HEADS | heads).get(shown.head[k], shown.head[k]) for k in kept)
+    names = [(HEADS | heads).get(shown.head[k], shown.head[k].replace(" ", "\n")) for k in kept]
+    first, *numbers = names
     last = numbers.pop() if shown.words or numbers[-1] == "verdict" else ""
-    rows = [_bare(row[k] for k in kept) for row in shown.rows]
+    # below heads that say per cent
+    rows = [[row[k].replace("< ", "<").removesuffix(" %") for k in kept] for row in shown.rows]
     table = plain_table(first, numbers=numbers, last=last, rows=rows)
     if any(row[-1] == "inconclusive" for row in rows):
         table.padding = 0  # the longest verdict fits into 80 columns
@@ -134,16 +132,9 @@ def _brief(
 
 def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
     """An answer from outside beside its reference, and what is to be said of it."""
-    shown = answer_table(outcome, answer, brief=True)
-    first, *numbers, last = (NARROW.get(head, head.replace(" ", "\n")) for head in shown.head)
-    table = plain_table(first, numbers=numbers, last=last, rows=map(_bare, shown.rows))
+    table = _brief(answer_table(outcome, answer, brief=True))
     table.title = f"{answer}, from outside"
     return [table, *(plain_text(f"{n}: {text}") for n, text in answer_facts(outcome, answer))]
-
-
-def _bare(row: Iterable[str]) -> list[str]:
-    """Cells below heads that say per cent."""
-    return [text.replace("< ", "<").removesuffix(" %") for text in row]
 
 
 def plain_table(
