@@ -20,7 +20,7 @@ from comparisons.drawing.blocks import Block, Heading, Names, Note, Pictures, Te
 from comparisons.drawing.curves import over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
 from comparisons.drawing.tables import figure_table
-from comparisons.figures.figure import nearest_to_tolerance
+from comparisons.figures.figure import deciding
 from comparisons.figures.quantity import COMPARED, LABELS, label
 from comparisons.judging import contact
 from comparisons.judging.study import Run
@@ -70,23 +70,20 @@ def verdicts(run: Run) -> list[tuple[str, str]]:
 def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
     """Whether an answer agrees with its reference in all that is judged of it, in a word, and a
     sentence with the figure that decides."""
-    known = run.figures.of(study=NAME, source=answer)
-    judged, reference = [f for f in known if f.bounds is not None], LABELS[reference_of(run)]
-    found = {figure.verdict for figure in judged}
-    kind = next(kind for kind in ("differ", "inconclusive", "agree") if kind in found)
-    deciding = [figure for figure in judged if figure.verdict == kind]
-    figure = nearest_to_tolerance(deciding)
-    count = f"{len(deciding)} of {len(judged)} judged figures"
-    if len(deciding) == len(judged):
+    judged = [f for f in run.figures.of(study=NAME, source=answer) if f.bounds is not None]
+    figure = deciding(judged)
+    kind, number = figure.verdict, sum(f.verdict == figure.verdict for f in judged)
+    count = f"{number} of {len(judged)} judged figures"
+    if number == len(judged):
         every = {1: "the one judged figure", 2: "both judged figures"}
-        count = every.get(len(judged), f"all {count.partition(' of ')[2]}")
+        count = every.get(number, f"all {number} judged figures")
     said = {"differ": "differs from", "agree": "agrees with"}
-    words = f"the answer {answer} {said.get(kind, 'may agree with or differ from')} the {reference}"
+    words = f"{said.get(kind, 'may agree with or differ from')} the {LABELS[reference_of(run)]}"
     at = f" at friction {plain(figure.friction)}" if len({f.friction for f in judged}) > 1 else ""
     end = f"{COMPARED[figure.quantity].short}{at}, {figure.sized(figure.total)}"
     first = "the farthest" if kind == "differ" else "nearest to its tolerance"
     tolerance = percent_as_written(figure.tolerance)
-    return kind, f"T{words[1:]} in {count}; {first}: {end} (tolerance {tolerance})."
+    return kind, f"The answer {answer} {words} in {count}; {first}: {end} (tolerance {tolerance})."
 
 
 def answer_table(run: Run, answer: str, brief: bool = False) -> TextTable:
