@@ -41,7 +41,7 @@ def loads(outcome):
 
 
 @pytest.fixture
-def judged(outcome):
+def uncertainties(outcome):
     """The same of their uncertainties."""
     columns = outcome.findings["statistics"].table("loads").columns
     return {name: column.sizes for name, column in columns.items()}
