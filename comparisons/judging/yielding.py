@@ -22,8 +22,8 @@ from comparisons.figures.figure import Figure, Findings, Statement, figures_of
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.contact import AT_HARDNESS
+from comparisons.judging.effects.catalogue import FLOW
 from comparisons.judging.effects.estimates import BOTH_CRITERIA, STIFF, flow_of, typical_shears
-from comparisons.judging.effects.selection import FLOW
 from comparisons.judging.rule import judged
 from comparisons.judging.study import MODEL_ERROR, Case, Run, Solved, Study
 from comparisons.models.level import Level

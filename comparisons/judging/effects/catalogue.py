@@ -1,47 +1,63 @@
 """The half-plane's assumptions, each as an effect that finite elements may contain.
 
-A new finite-element effect gets its entry in effects.toml, an estimate in `estimates`, and its
-place in the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and
-given any effects (`with_effects`): so each is measured alone, a `ModelVariant` on the same pressure
-elements. Finite deformation is one effect: at finite strain the gap is on the deformed surface and
-the trace is the boundary."""
+An effect is one entry of EFFECTS: how a scene is given it, and how much it may change. A scene is
+reduced to what the half-plane assumes (`plain`) and given any effects (`with_effects`): so each is
+measured alone, and all are computed that may matter. Finite deformation is one effect: at finite
+strain the gap is on the deformed surface and the trace is the boundary."""
 
-import tomllib
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from operator import attrgetter
-from pathlib import Path
 
-from analytic.material import Law
-from comparisons.models.operators import is_layered
-from comparisons.models.problem import Problem
+from comparisons.figures.figure import SHARED
+from comparisons.judging.effects.estimates import (
+    Shown,
+    Sizes,
+    coating,
+    coupling,
+    exact_circle,
+    finite_deformation,
+    finite_roller,
+    finite_size,
+    law_of_elasticity,
+    plastic_flow,
+    roller_support,
+    why_no_flow,
+)
+from comparisons.models.problem import COUPLED, Problem
+from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
+
+FINITE, FLOW = "finite_strain", "plastic_flow"
+LAW, SAMPLING = "law_of_elasticity", SHARED
+SMALL_STRAINS = "flow is taken at small strains"
+ITS_OWN_LAW = "a body that flows has Hencky's law of elasticity"
+# What an unbounded body is held beyond where the scene's is finite, so that it has less of the
+# effect: of tau1, which goes with 1/D, a twentieth; of pressures under a disc, with 1/D^2, as much.
+BEYOND_BODY, BEYOND_ROLLER = 20.0, 4.5
 
 
 @dataclass(frozen=True)
 class Effect:
-    """One assumption that is dropped, as effects.toml describes it."""
+    """One assumption that is dropped."""
 
-    label: str
-    words: str
-    sets: dict[str, object] = field(default_factory=dict)
-    takes: tuple[str, ...] = ()
-    needs: tuple[str, ...] = ()
+    label: str  # short name for tables
+    words: str  # what replaces the assumption, for tables
+    # by quantity, how much it may change; nothing where it cannot
+    estimate: Callable[[Problem, Shown], Sizes] = lambda problem, shown: {}
+    sets: Mapping[str, object] = field(default_factory=dict)  # in [finite_element], to give it
+    takes: tuple[str, ...] = ()  # parts of the scene that give it
+    on_one_period: bool = False  # whether a periodic surface may have it
+    is_nonlinear: bool = False
+    why_not: Callable[[Problem], str | None] = lambda problem: None  # it cannot be computed
+    beside_flow: str | None = None  # why it cannot be where the whole model flows
+    beyond: Callable[[Scene], float] | None = None  # [m] size of an unbounded body that lacks it
 
-    def contained(self, scene: Scene) -> bool:
-        """Whether a scene's finite elements have it, and its half-plane has not."""
-        if "coupled" in self.sets and scene.load.coupled:
-            return False
+    def is_in(self, scene: Scene) -> bool:
+        """Whether a scene's finite elements have all that gives it."""
         switches = {name: getattr(scene.finite_element, name) for name in self.sets}
-        return switches == self.sets if switches else _any_of(scene, self.takes)
-
-    def applies(self, problem: Problem) -> bool:
-        """Whether it could differ from the half-plane at all in a scene."""
-        scene = problem.scene
-        if "coupled" in self.sets:
-            moves = problem.dundurs_beta != 0.0 or is_layered(scene)
-            return moves and any(scene.load.friction) and not scene.load.coupled
-        return not self.needs or _any_of(scene, self.needs)
+        parts = [attrgetter(name)(scene) is not None for name in self.takes]
+        return switches == self.sets if switches else any(parts)
 
     def give(self, scene: Scene, whole: Scene) -> Scene:
         """A plainer scene with what `whole` has of it."""
@@ -49,29 +65,98 @@ class Effect:
         return scene.unchecked(sets | {name: attrgetter(name)(whole) for name in self.takes})
 
 
-def _any_of(scene: Scene, parts: Iterable[str]) -> bool:
-    return any(attrgetter(name)(scene) is not None for name in parts)
-
-
-_TABLE = tomllib.loads(Path(__file__).with_name("effects.toml").read_text(encoding="utf-8"))
-EFFECTS = {name: Effect(**described) for name, described in _TABLE.items()}
+# In the order of the sums of their contributions, whose last bit depends on it.
+EFFECTS = {
+    "exact_circle": Effect(
+        "exact circle", "the roller's circle", exact_circle, {"roller_shape": "circle"}
+    ),
+    "coating": Effect("coating", "the coating", coating, {}, ("coating",), on_one_period=True),
+    COUPLED: Effect(
+        "normal-tangential coupling",
+        "sliding traction that moves the surfaces",
+        coupling,
+        {"coupled": True},
+    ),
+    "finite_roller": Effect(
+        "finite roller",
+        "a roller of finite size",
+        finite_roller,
+        {"roller_body": "disc"},
+        beyond=lambda scene: BEYOND_ROLLER * scene.roller.radius,
+    ),
+    "finite_size": Effect(
+        "finite thickness or width",
+        "the body's own thickness and width",
+        finite_size,
+        takes=("body.thickness", "body.width", "body.base"),
+        on_one_period=True,
+        beyond=lambda scene: (
+            BEYOND_BODY * min(filter(None, (scene.body.thickness, scene.body.width)))
+        ),
+    ),
+    FINITE: Effect(
+        "finite deformation",
+        "strains and rotations that are not small, on the deformed surface of the trace",
+        finite_deformation,
+        {"deformation": "finite"},
+        is_nonlinear=True,
+        beside_flow=SMALL_STRAINS,
+    ),
+    FLOW: Effect(
+        "plastic flow",
+        "flow in place of the cap on the pressure",
+        plastic_flow,
+        {"plastic": True},
+        is_nonlinear=True,
+        why_not=why_no_flow,
+    ),
+    LAW: Effect(  # no switch gives another one
+        "law of elasticity",
+        "another law of finite strain with the same constants",
+        law_of_elasticity,
+        beside_flow=ITS_OWN_LAW,
+    ),
+    "roller_support": Effect(  # not known where the scene gives none
+        "roller's support",
+        "another support of the roller, from opposite the contact to a hub of half its radius",
+        roller_support,
+        why_not=lambda problem: (
+            "no support is given: a sector of the disc is held at 0.4 of its radius"
+        ),
+    ),
+    SAMPLING: Effect(  # no model knows more of the surface
+        "sampling of the trace",
+        "the surface between the samples, by what leaving out every other one changes",
+    ),
+}
+NONLINEAR = tuple(name for name, effect in EFFECTS.items() if effect.is_nonlinear)
 # What a scene does not say: no finite elements have another one.
 UNKNOWN = tuple(name for name, effect in EFFECTS.items() if not (effect.sets or effect.takes))
 
-PLAIN = {
-    "finite_element.roller_shape": "parabola",
-    "finite_element.roller_body": "half-plane",
-    "finite_element.deformation": "linear",
-}
-# What an unbounded body is held beyond where the scene's is finite, so that it has less of the
-# effect: of tau1, which goes with 1/D, a twentieth; of pressures under a disc, with 1/D^2, as much.
-BEYOND_BODY, BEYOND_ROLLER = 20.0, 4.5
-STRAINED = "P2"  # elements of finite deformation
+
+def estimates(problem: Problem, shown: Shown) -> dict[str, Sizes]:
+    """By effect and quantity, without those of no size; one is infinite where nothing bounds it."""
+    sized = {}
+    for name, effect in EFFECTS.items():
+        sizes = effect.estimate(problem, shown)
+        if sizes := {quantity: size for quantity, size in sizes.items() if size > 0.0}:
+            sized[name] = sizes
+    return sized
+
+
+def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
+    """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
+    effect = EFFECTS[name]
+    if problem.scene.periodic and not effect.on_one_period:
+        return "the bodies of a periodic surface are linear, its roughness is in the gap"
+    return (flows and effect.beside_flow) or effect.why_not(problem)
 
 
 def contained(scene: Scene) -> frozenset[str]:
-    """Names of the effects that the scene's own finite elements have."""
-    return frozenset(name for name, effect in EFFECTS.items() if effect.contained(scene))
+    """Names of the effects that the scene's own finite elements have, and its half-plane has
+    not."""
+    bare = plain(scene)
+    return frozenset(n for n, effect in EFFECTS.items() if effect.is_in(scene) > effect.is_in(bare))
 
 
 def is_taken_apart(scene: Scene) -> bool:
@@ -81,10 +166,12 @@ def is_taken_apart(scene: Scene) -> bool:
 
 def plain(scene: Scene) -> Scene:
     """The scene as the half-plane assumes it."""
-    bare = dict.fromkeys(("body.thickness", "body.width", "body.base", "coating"))
-    flow = False if scene.finite_element.plastic is False else None
-    own = {"finite_element.coupled": scene.load.coupled, "finite_element.plastic": flow}
-    return scene.unchecked(PLAIN | bare | own)
+    switches = {name for effect in EFFECTS.values() for name in effect.sets}
+    sets = {name: FiniteElementSection.model_fields[name].default for name in switches}
+    sets |= {"coupled": scene.load.coupled}
+    sets |= {"plastic": False} if scene.finite_element.plastic is False else {}
+    bare = dict.fromkeys(name for effect in EFFECTS.values() for name in effect.takes)
+    return scene.unchecked(bare | {f"finite_element.{name}": set_ for name, set_ in sets.items()})
 
 
 def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
@@ -94,51 +181,3 @@ def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
         if name in names:
             made = EFFECTS[name].give(made, scene)
     return made
-
-
-@dataclass(frozen=True)
-class ModelVariant:
-    """A finite-element model of the scene with other effects."""
-
-    effects: frozenset[str]  # names of those that it has
-    # the coefficient that shapes its pressures; None: they are the same for all
-    friction: float | None = None
-    quadratic: bool = False  # its elements are those that finite deformation takes
-    laws: tuple[tuple[str, Law], ...] = ()  # by body, in place of the scene's own
-    laws_name: str = ""  # what these stand for
-    times: int = 1  # as long increments of flow
-    half_block: bool = False  # the far boundary of an unbounded body is at half the distance
-
-    @property
-    def name(self) -> str:
-        """Of its file in a cache."""
-        words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
-        words += ["quadratic"] * self.quadratic
-        words += [f"as-{self.laws_name}"] * bool(self.laws)
-        words += [f"increments-{self.times}"] * (self.times > 1)
-        words += ["half-block"] * self.half_block
-        at = "" if self.friction is None else f"@{self.friction:g}"
-        return f"effect-{'+'.join(words)}{at}"
-
-
-def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
-    """The problem of a variant, on the same pressure elements."""
-    scene = with_effects(problem.scene, variant.effects)
-    if variant.friction is not None:
-        scene = scene.unchecked({"load.friction": (variant.friction,)})
-    if variant.quadratic:
-        scene = scene.unchecked({"finite_element.element": STRAINED})
-    for body, law in variant.laws:
-        constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
-        scene = scene.unchecked({f"{body}.law": law.name, f"{body}.murnaghan": constants})
-    return replace(problem, scene=scene, least_block=_least_block(problem.scene, variant))
-
-
-def _least_block(scene: Scene, variant: ModelVariant) -> float:
-    """Size [m] of an unbounded block in a variant that lacks the size of a scene's bodies."""
-    lacking, sizes = contained(scene) - variant.effects, [0.0]
-    if "finite_size" in lacking:
-        sizes += [BEYOND_BODY * min(filter(None, (scene.body.thickness, scene.body.width)))]
-    if "finite_roller" in lacking:
-        sizes += [BEYOND_ROLLER * scene.roller.radius]
-    return max(sizes)

@@ -1,4 +1,4 @@
-"""How much each effect may change a figure, from dimensionless groups: before anything is solved.
+"""How much each effect may change a figure, from dimensionless groups: before it is computed.
 
     a, p0   half-width and peak pressure of the smooth contact     R     radius of the roller
     t, w    thickness and width of the body                        p     largest pressure
@@ -13,6 +13,9 @@ Normal-tangential coupling is measured on the half-plane where that is possible
 (`comparisons.judging.coupling`)."""
 
 import math
+from dataclasses import dataclass
+
+import numpy as np
 
 from analytic.material import dundurs_constants
 from comparisons.common.numbers import with_unit
@@ -29,35 +32,19 @@ STRESSES = ("tau1_max", "txz_max_abs")
 NEAR_SURFACE = ("tau1_max", "tau1_max_depth", "txz_max_abs")
 
 
-def estimates(
-    problem: Problem,
-    peak: float,
-    mean: float,
-    couplings: tuple[Coupling, ...] = (),
-    shear: float = 0.0,
-) -> dict[str, Sizes]:
-    """By effect and quantity, without those of no size; one is infinite where nothing bounds it.
+@dataclass(frozen=True)
+class Shown:
+    """What the half-plane shows of a contact, by which effects are estimated."""
 
-    peak       largest pressure [Pa] of the half-plane
-    mean       of its contact [Pa]: the pressure that the load stands under on average
-    couplings  of the half-plane, one a friction coefficient
-    shear      its largest tau1 [Pa], at least; at least that below a smooth contact of this peak"""
-    estimate = {
-        "finite_size": _finite_size(problem),
-        "coating": _coating(problem),
-        "exact_circle": _equal(CIRCLE * _curvature(problem) ** 2),
-        "finite_roller": _finite_roller(problem),
-        "roller_support": _roller_support(problem),
-        "normal_tangential_coupling": _coupling(problem, couplings),
-        "finite_strain": _finite_deformation(problem, peak),
-        "law_of_elasticity": law_of_elasticity(problem, peak, mean),
-        "plastic_flow": _plastic_flow(problem, peak, max(shear, OF_THE_PEAK * peak)),
-    }
-    sized = {
-        effect: {name: size for name, size in sizes.items() if size > 0.0}
-        for effect, sizes in estimate.items()
-    }
-    return {effect: sizes for effect, sizes in sized.items() if sizes}
+    peak: float  # [Pa] largest pressure
+    mean: float  # [Pa] that the load stands under on average
+    couplings: tuple[Coupling, ...] = ()  # one a friction coefficient
+    shear: float = 0.0  # [Pa] largest tau1, at least
+
+
+def mean_pressure(pressure: np.ndarray) -> float:
+    """[Pa] that the load stands under on average, by equal elements."""
+    return float(pressure @ pressure / pressure.sum())
 
 
 def _equal(size: float) -> Sizes:
@@ -75,7 +62,7 @@ REFLECTED = {"tau1_max": 1.0, "tau1_max_depth": 1.0}
 BROADER = 1.5  # reflected by free sides, of what a base reflects
 
 
-def _finite_size(problem: Problem) -> Sizes:
+def finite_size(problem: Problem, shown: Shown) -> Sizes:
     estimate = _equal(0.0)
     for extent, factor in (("thickness", 1.0), ("width", BROADER)):
         length = getattr(problem.scene.body, extent)
@@ -88,7 +75,7 @@ def _finite_size(problem: Problem) -> Sizes:
     return estimate
 
 
-def _coating(problem: Problem) -> Sizes:
+def coating(problem: Problem, shown: Shown) -> Sizes:
     """As much as the stiffness differs; of the contact's figures the deeper it reaches."""
     coating, body = problem.scene.coating, problem.scene.body.material
     if coating is None:
@@ -111,15 +98,15 @@ TILT, TILT_OF_STRESS = 0.25, 2.2
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 
-def _finite_deformation(problem: Problem, peak: float) -> Sizes:
+def finite_deformation(problem: Problem, shown: Shown) -> Sizes:
     """Finite strain, the gap on the deformed surface, the trace as boundary."""
     body, info = problem.scene.body.material, problem.surface.info
     if problem.scene.linear:
         return {}
-    pressure = peak / body.youngs_modulus
+    pressure = shown.peak / body.youngs_modulus
     strained = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
-    size = TILT * _curvature(problem) + strain * peak
+    size = TILT * _curvature(problem) + strain * shown.peak
     moved = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
     slope = 0.0 if info is None else info.roughness.rms_slope
     bounded = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
@@ -129,13 +116,19 @@ def _finite_deformation(problem: Problem, peak: float) -> Sizes:
 
 # The circle's next term is x^4 / (8 R^3): a^2 / (4 R^2) of the parabola at the contact's edge.
 CIRCLE = 0.25
+
+
+def exact_circle(problem: Problem, shown: Shown) -> Sizes:
+    return _equal(CIRCLE * _curvature(problem) ** 2)
+
+
 # A disc in place of a half-plane: of a polymer 0.52 (a/R)^2 as a sector, -0.33 held opposite the
 # contact, 0.72 on a hub of half the radius; on larger hubs 0.25 to 0.34 times the square of a over
 # the ring's thickness.
 DISC, RING = 0.8, 0.45
 
 
-def _finite_roller(problem: Problem) -> Sizes:
+def finite_roller(problem: Problem, shown: Shown) -> Sizes:
     roller = problem.scene.roller
     if roller.rigid:
         return {}
@@ -159,7 +152,7 @@ TURNED = {"tau1_max_depth": 4.0}
 TURNED_ROUGH = {"peak_pressure": 1.0, "contact_length": 1.7}
 
 
-def _roller_support(problem: Problem) -> Sizes:
+def roller_support(problem: Problem, shown: Shown) -> Sizes:
     roller = problem.scene.roller
     if roller.rigid or roller.support is not None:
         return {}
@@ -180,12 +173,10 @@ def _roller_support(problem: Problem) -> Sizes:
 FLOWED = 0.3
 
 
-def finite_flow(problem: Problem, peak: float, strain: float) -> Sizes:
-    """Finite deformation of a whole model that flows at small strains.
-
-    peak    its largest pressure [Pa]
-    strain  its largest equivalent plastic strain"""
-    elastic = _finite_deformation(problem, peak)
+def finite_flow(problem: Problem, shown: Shown, strain: float) -> Sizes:
+    """Finite deformation of a whole model that flows at small strains, up to an equivalent plastic
+    strain, and shows these pressures."""
+    elastic = finite_deformation(problem, shown)
     return {name: size + FLOWED * strain for name, size in elastic.items()}
 
 
@@ -195,7 +186,7 @@ def finite_flow(problem: Problem, peak: float, strain: float) -> Sizes:
 OF_ASPERITIES, LAW_OF_DEPTH = 1.75, 1.3
 
 
-def law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
+def law_of_elasticity(problem: Problem, shown: Shown) -> Sizes:
     """Of the bodies whose law is not known, each by its share of what closes the gap; of a coating
     by its depth."""
     scene = problem.scene
@@ -207,9 +198,9 @@ def law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
             depth = min(1.0, thickness / problem.hertz.half_width)
             strained += depth * law.size * problem.modulus / stiffness
     strained *= 1.0 if scene.profile is None else OF_ASPERITIES
-    estimate = _equal(strained * mean)
+    estimate = _equal(strained * shown.mean)
     estimate["tau1_max_depth"] *= LAW_OF_DEPTH
-    return estimate | dict.fromkeys(("peak_pressure", "tau1_max", "txz_max_abs"), strained * peak)
+    return estimate | dict.fromkeys(("peak_pressure", *STRESSES), strained * shown.peak)
 
 
 # Coupling where it is not measured on the half-plane: 1.4 % in contact
@@ -223,12 +214,12 @@ COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 3.0, "txz_max_abs": 0.3
 FAR_SIDE, COAT_SIDE = 2.0, 3.0
 
 
-def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
+def coupling(problem: Problem, shown: Shown) -> Sizes:
     """The largest of any friction coefficient: measured, else estimated."""
     estimate: Sizes = {}
     if problem.scene.load.coupled:
         return estimate
-    measured = {coupling.friction: coupling.changes for coupling in couplings}
+    measured = {coupling.friction: coupling.changes for coupling in shown.couplings}
     for friction in problem.scene.load.friction:
         sizes = _coupled(friction * abs(problem.dundurs_beta))
         for name, change in (measured.get(friction) or {}).items():
@@ -279,8 +270,9 @@ BOTH_CRITERIA = 2.0 / 3.0**0.5  # shear of first flow by von Mises over that by 
 STIFF = 1e9
 
 
-def _plastic_flow(problem: Problem, peak: float, shear: float) -> Sizes:
-    scene, body = problem.scene, problem.scene.body
+def plastic_flow(problem: Problem, shown: Shown) -> Sizes:
+    scene, body, peak = problem.scene, problem.scene.body, shown.peak
+    shear = max(shown.shear, OF_THE_PEAK * peak)
     if scene.finite_element.plastic or scene.asks_elastic:
         return {}  # the scene's own finite elements flow, or it asks for none that do
     if not (body.hardness or body.yield_stress):
@@ -298,6 +290,20 @@ def _plastic_flow(problem: Problem, peak: float, shear: float) -> Sizes:
     stress = UNCAPPED_STRESS * beyond + FIRST_AT_SURFACE
     stresses = dict.fromkeys(STRESSES, stress) | {"tau1_max_depth": max(1.0, stress)}
     return _equal(UNCAPPED * beyond) | stresses
+
+
+def why_no_flow(problem: Problem) -> str | None:
+    """Why finite elements that flow cannot be solved in a scene."""
+    scene = problem.scene
+    if scene.body.yield_stress is None:
+        typical, unknown = typical_shears(scene.body), "the body has no yield stress"
+        stands = typical and not scene.body.hardness  # nothing stands for its flow
+        return f"{unknown}, {flow_of(scene.body, *typical)}" if stands else unknown
+    if scene.load.kind == "approach":
+        return "it takes no prescribed approach"
+    if scene.finite_element.deformation == "finite":
+        return 'it takes finite_element.deformation = "linear"'
+    return None
 
 
 def typical_shears(body: BodySection) -> tuple[float, float] | None:

@@ -25,7 +25,6 @@ from analytic.material import Law, Material
 from analytic.material.third_order import is_elliptic, peak_change, third_order
 from comparisons.common.numbers import percent, with_unit
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.judging.effects.catalogue import ModelVariant
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
@@ -33,7 +32,6 @@ from comparisons.scenes.materials import RUBBER, kinds_of, measured_solids, scal
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 
-EFFECT = "law_of_elasticity"
 BODIES = ("body", "roller", "coating")
 COVERED = 2.0  # standard errors
 MOVED = {"l": 5.0, "m": 3.0}  # by these times the shear modulus
@@ -155,21 +153,6 @@ def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law
 
     chosen = max(combinations(laws, 2), key=area, default=tuple(laws))
     return tuple((name, laws[name]) for name in chosen)
-
-
-def law_variants(
-    whole: ModelVariant, laws: tuple[OpenLaw, ...]
-) -> dict[tuple[int, str], ModelVariant]:
-    """The whole with each probe, by place in `laws` and the probe's name."""
-    return {
-        (number, probe): replace(
-            whole,
-            laws=tuple((body, law) for body in open_law.bodies),
-            laws_name=f"{'-and-'.join(open_law.bodies)}-{'-'.join(probe.split())}",
-        )
-        for number, open_law in enumerate(laws)
-        for probe, law in open_law.probes.items()
-    }
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ from math import inf
 from comparisons.common.numbers import significant, with_unit
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Here, Tasks
-from comparisons.figures.figure import SHARED
 from comparisons.judging.effects.estimates import Sizes
 from comparisons.judging.model_error.quantities_of_interest import quantities_of
 from comparisons.judging.rule import relative_differences
@@ -21,7 +20,6 @@ from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
-EFFECT = SHARED
 FEWEST = 20  # samples of a measured trace on the contact
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 

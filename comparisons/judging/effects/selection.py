@@ -7,28 +7,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from comparisons.figures.quantity import USUAL
-from comparisons.judging.coupling import Coupling
-from comparisons.judging.effects.catalogue import EFFECTS, contained
-from comparisons.judging.effects.estimates import Sizes, estimates, flow_of, typical_shears
-from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.catalogue import (
+    EFFECTS,
+    FINITE,
+    FLOW,
+    LAW,
+    NONLINEAR,
+    contained,
+    estimates,
+    why_not,
+)
+from comparisons.judging.effects.estimates import Shown, Sizes
 from comparisons.judging.effects.laws import OpenLaw, open_laws
 from comparisons.models.problem import COUPLED, Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
-FINITE, FLOW = "finite_strain", "plastic_flow"
-SMALL_STRAINS = "flow is taken at small strains"
-ITS_OWN_LAW = "a body that flows has Hencky's law of elasticity"
-ON_ONE_PERIOD = ("finite_size", "coating")  # effects that a periodic surface may have
-# Effects in the order of the sums of their contributions, whose last bit depends on it.
-NONLINEAR = (FINITE, FLOW)
-ORDER = (
-    "exact_circle",
-    "coating",
-    "normal_tangential_coupling",
-    "finite_roller",
-    "finite_size",
-    *NONLINEAR,
-)
 
 
 @dataclass(frozen=True)
@@ -112,24 +105,16 @@ class EffectSelection:
 
 def select_effects(
     problem: Problem,
-    peak: float,
-    couplings: tuple[Coupling, ...],
-    mean: float | None = None,
-    shear: float = 0.0,
+    shown: Shown,
     known: Mapping[str, Sizes] = {},
     no_time: str | None = None,
 ) -> EffectSelection:
     """Decide by the estimates.
 
-    peak     the half-plane's largest pressure [Pa]
-    mean     of its contact [Pa], by default the same
-    shear    its largest tau1 [Pa], at least
     known    by effect, what it was found to change, in place of its estimate
     no_time  why flow is not computed where it could be"""
     own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
-    estimated = estimates(problem, peak, peak if mean is None else mean, couplings, shear)
-    sized = {name: sizes for name, sizes in estimated.items() if EFFECTS[name].applies(problem)}
-    sized |= known
+    sized = estimates(problem, shown) | known
     added, negligible, impossible = set(), {}, {}
     mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
     flows = FLOW in own_effects
@@ -162,25 +147,3 @@ def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
         sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * min(tolerance, USUAL)
         for quantity, tolerance in tolerances.items()
     )
-
-
-def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
-    """Why an effect cannot be computed in a scene, or None; `flows`: the whole model does."""
-    scene = problem.scene
-    if scene.periodic and name not in ON_ONE_PERIOD:
-        return "the bodies of a periodic surface are linear, its roughness is in the gap"
-    if name == "roller_support":
-        return "no support is given: a sector of the disc is held at 0.4 of its radius"
-    if name not in (*NONLINEAR, LAW):
-        return None
-    reasons = {ITS_OWN_LAW if name == LAW else SMALL_STRAINS: flows}
-    if name == FLOW:
-        typical, unknown = typical_shears(scene.body), "the body has no yield stress"
-        if typical and not scene.body.hardness:  # nothing stands for its flow
-            unknown += f", {flow_of(scene.body, *typical)}"
-        reasons = {
-            unknown: scene.body.yield_stress is None,
-            "it takes no prescribed approach": scene.load.kind == "approach",
-            'it takes finite_element.deformation = "linear"': FINITE in contained(scene),
-        }
-    return next((why for why, hindered in reasons.items() if hindered), None)

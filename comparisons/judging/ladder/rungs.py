@@ -15,8 +15,7 @@ from comparisons.common.progress import Stages
 from comparisons.common.tasks import LAST, Tasks, called
 from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.selection import FINITE, FLOW, NONLINEAR
+from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
 from comparisons.judging.model_error.model_error import Solutions, figure_of
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged

@@ -17,14 +17,12 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from operator import sub
 
-from comparisons.judging.effects.catalogue import STRAINED, ModelVariant
-from comparisons.judging.effects.laws import law_variants
-from comparisons.judging.effects.selection import FLOW, NONLINEAR, ORDER, EffectSelection
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW, NONLINEAR
+from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.effects.variants import STRAINED, ModelVariant, law_variants
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import COUPLED, Problem
-
-OF_SIZE = ("finite_size", "finite_roller")  # effects that a far boundary has, too
 
 
 class NotComputedError(Exception):
@@ -60,7 +58,7 @@ class SplitVariants:
     @property
     def held_nearer(self) -> dict[str, ModelVariant]:
         """By effect of size, what lacks it with its far boundary at half the distance."""
-        sizes = {name: self.pairs[name][1] for name in OF_SIZE if name in self.pairs}
+        sizes = {name: pair[1] for name, pair in self.pairs.items() if EFFECTS[name].beyond}
         return {name: replace(without, half_block=True) for name, without in sizes.items()}
 
     @property
@@ -115,7 +113,7 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
         return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
 
     nothing, pairs = frozenset(), {}
-    for name in ORDER:
+    for name in EFFECTS:
         if name in chosen:
             beside = chosen & {COUPLED} if name in NONLINEAR else nothing
             pairs[name] = variant(grown(beside | {name})), variant(beside)

@@ -22,22 +22,27 @@ from comparisons.figures.figure import Figure, Part, is_decided
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.coupling import Coupling
-from comparisons.judging.effects.catalogue import UNKNOWN, ModelVariant
-from comparisons.judging.effects.estimates import Sizes, finite_flow, law_of_elasticity
-from comparisons.judging.effects.laws import EFFECT as LAW
-from comparisons.judging.effects.sampling import EFFECT as SAMPLING
-from comparisons.judging.effects.sampling import announce_sampling, sampling_estimate
-from comparisons.judging.effects.selection import (
+from comparisons.judging.effects.catalogue import (
+    EFFECTS,
     FINITE,
     FLOW,
     ITS_OWN_LAW,
-    ORDER,
+    LAW,
+    SAMPLING,
     SMALL_STRAINS,
-    EffectSelection,
-    is_negligible,
-    select_effects,
+    UNKNOWN,
     why_not,
 )
+from comparisons.judging.effects.estimates import (
+    Shown,
+    Sizes,
+    finite_flow,
+    law_of_elasticity,
+    mean_pressure,
+)
+from comparisons.judging.effects.sampling import announce_sampling, sampling_estimate
+from comparisons.judging.effects.selection import EffectSelection, is_negligible, select_effects
+from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import NotComputedError, split_variants
 from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.model_error.refinement import (
@@ -117,7 +122,7 @@ def _idle_flow(budget: ErrorBudget, tolerances: Mapping[str, float]) -> Sizes | 
         flow = error.part(FLOW)
         if flow is None:
             return None
-        effects = [part for part in error.parts if part.name in ORDER]
+        effects = [part for part in error.parts if part.name in EFFECTS]
         joint = abs(error.part(INTERACTION).value) if len(effects) > 1 else 0.0
         size = abs(flow.value) + flow.uncertainty + joint
         sizes[error.quantity] = max(size, sizes.get(error.quantity, 0.0))
@@ -132,12 +137,12 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     problem, variants, selection = effects.problem, effects.variants, budget.selection
     strains = [s for level in budget.wholes if (s := level.plastic_strain) is not None]
     pressures = [level.solution.pressure for level in budget.wholes]
-    peak, mean = max(map(np.max, pressures)), max(map(mean_pressure, pressures))
+    shown = Shown(max(map(np.max, pressures)), max(map(mean_pressure, pressures)))
     tolerances = problem.scene.tolerances
     if selection.impossible.get(LAW) == ITS_OWN_LAW:
-        selection = selection.resized(LAW, law_of_elasticity(problem, peak, mean), tolerances)
+        selection = selection.resized(LAW, law_of_elasticity(problem, shown), tolerances)
     if selection.impossible.get(FINITE) == SMALL_STRAINS and strains:
-        sizes = finite_flow(problem, peak, max(strains))
+        sizes = finite_flow(problem, shown, max(strains))
         selection = selection.resized(FINITE, sizes, tolerances)
     if selection.impossible.get(FINITE) != SMALL_STRAINS:
         return selection
@@ -217,17 +222,14 @@ def selected_effects(
     finest = (case.runs["half_plane"].finest for case in solved.cases)
     pressure = max((level.solution.pressure for level in finest), key=np.max)
     problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
-    flow, peak = flow_assessment(solved), float(pressure.max())
+    flow = flow_assessment(solved)
     # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
     if not why_not(FLOW, problem) and time_with_flow(problem, solved.plan, patches) > problem.time:
         more = with_unit(flow_seconds(problem, patches), "s", 2)
         no_time = f"it takes {more} more (budget.time)"
-    selection = select_effects(
-        *(problem, peak, couplings, mean_pressure(pressure)),
-        shear=flow.least_shear,
-        known=known,
-        no_time=no_time,
-    )
+    mean = mean_pressure(pressure)
+    shown = Shown(float(pressure.max()), mean, couplings, flow.least_shear)
+    selection = select_effects(problem, shown, known, no_time)
     asked = problem.scene.budget.effects
     if not solved.plan.effects:
         computed = {LAW} if selection.laws else set()  # beside the added
@@ -240,11 +242,6 @@ def selected_effects(
         why = f"the body flows, an elastic one cannot hold ({ASKED})"
         return selection.without(selection.added, why)
     return selection
-
-
-def mean_pressure(pressure: np.ndarray) -> float:
-    """[Pa] that the load stands under on average, by equal elements."""
-    return float(pressure @ pressure / pressure.sum())
 
 
 def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:

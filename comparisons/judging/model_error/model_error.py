@@ -23,10 +23,10 @@ from comparisons.figures.uncertainty import (
     iteration,
     of_increments,
 )
-from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.catalogue import EFFECTS, LAW
 from comparisons.judging.effects.laws import LawSolutions, LawSpread
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import OF_SIZE, EffectContributions
+from comparisons.judging.model_error.contributions import EffectContributions
 from comparisons.judging.model_error.quantities_of_interest import (
     LARGEST,
     QuantitiesOfInterest,
@@ -248,7 +248,7 @@ class Solutions:
             self._estimate(name, changes, at),
             self.split_levels[-1].pairs[effect],
         )
-        if effect in OF_SIZE:
+        if EFFECTS[effect].beyond:
             # of the far boundary of the solution without it; unknown where none is nearer
             domain = np.inf
             if effect in self.nearer:

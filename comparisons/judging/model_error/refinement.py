@@ -9,10 +9,10 @@ from functools import partial
 
 from comparisons.common.tasks import LAST
 from comparisons.figures.figure import Figure, Figures
-from comparisons.judging.effects.catalogue import ModelVariant
-from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.catalogue import LAW
 from comparisons.judging.effects.laws import LawSolutions
 from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     contributions_of,

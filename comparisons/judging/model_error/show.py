@@ -25,9 +25,7 @@ from comparisons.drawing.tables import figure_table
 from comparisons.figures.figure import Figure, grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE, error_text, label
 from comparisons.judging import contact
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.laws import EFFECT as LAW
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW, LAW
 from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run
 

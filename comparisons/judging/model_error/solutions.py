@@ -12,14 +12,8 @@ from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.effects.catalogue import (
-    EFFECTS,
-    ModelVariant,
-    contained,
-    is_taken_apart,
-    problem_with,
-)
-from comparisons.judging.effects.selection import NONLINEAR
+from comparisons.judging.effects.catalogue import EFFECTS, NONLINEAR, contained, is_taken_apart
+from comparisons.judging.effects.variants import ModelVariant, problem_with
 from comparisons.judging.model_error.contributions import NotComputedError
 from comparisons.judging.model_error.quantities_of_interest import (
     QuantitiesOfInterest,

@@ -15,14 +15,13 @@ from comparisons.figures.figure import Column, Findings, Series, Statement
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.judging import comparison, coupling
 from comparisons.judging.coupling import Coupling
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.effects.catalogue import EFFECTS, estimates
+from comparisons.judging.effects.estimates import Shown, mean_pressure
 from comparisons.judging.effects.laws import trust
 from comparisons.judging.model_error import show
 from comparisons.judging.model_error.error_budget import (
     announce_effects,
     error_budget,
-    mean_pressure,
     selected_effects,
 )
 from comparisons.judging.model_error.refinement import ErrorBudget
@@ -120,8 +119,7 @@ def early_lines(
     flow = False if scene.finite_element.plastic is False else None
     elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": flow}))
     pressure = level.solution.pressure
-    every = estimates(elastic, float(pressure.max()), mean_pressure(pressure), couplings).items()
-    sizes = {effect: of for effect, of in every if EFFECTS[effect].applies(elastic)}
+    sizes = estimates(elastic, Shown(float(pressure.max()), mean_pressure(pressure), couplings))
     left = []
     for name in figures:
         total = sum(of.get(name, 0.0) for of in sizes.values())

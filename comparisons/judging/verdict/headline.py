@@ -11,8 +11,7 @@ from typing import Literal
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.figures.figure import Figure, deciding
 from comparisons.judging import contact, yielding
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW
 from comparisons.judging.model_error.model_error import INTERACTION
 from comparisons.judging.model_error.show import flow_taken
 from comparisons.judging.study import MODEL_ERROR, Run

@@ -16,10 +16,7 @@ from comparisons.common.progress import machine_memory
 from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging import yielding
-from comparisons.judging.effects.catalogue import EFFECTS, contained
-from comparisons.judging.effects.laws import EFFECT as LAW
-from comparisons.judging.effects.sampling import EFFECT as SAMPLING
-from comparisons.judging.effects.selection import FLOW, why_not
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW, LAW, SAMPLING, contained, why_not
 from comparisons.judging.model_error.model_error import INPUTS
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.whole import figures_of_whole

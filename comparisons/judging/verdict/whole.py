@@ -9,8 +9,7 @@ import numpy as np
 from comparisons.common.numbers import percent, plain, with_unit
 from comparisons.figures.quantity import QUANTITIES, WHOLE, label
 from comparisons.judging import yielding
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW
 from comparisons.judging.model_error.show import figure_of_whole
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run
 

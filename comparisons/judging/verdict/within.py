@@ -15,9 +15,7 @@ from comparisons.common.numbers import percent, percent_as_written, plain, with_
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
 from comparisons.judging import coupling, yielding
-from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.effects.sampling import EFFECT as SAMPLING
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW, SAMPLING
 from comparisons.judging.model_error.show import law_range, leaves_flow_out
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.models.assumptions import question

@@ -14,7 +14,8 @@ from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging import coupling
 from comparisons.judging.coupling import BEYOND_THE_END, SHIFT, Change, Coupling, couplings
-from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.effects.catalogue import estimates
+from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import WHY_NOT, Case, Run, Solved
 from comparisons.models.level import ModelRun
@@ -63,7 +64,7 @@ def change_of(problem: Problem, levels: ModelRun) -> Coupling:
 
 def estimate(problem, couplings_of) -> dict | None:
     """How much friction may change by moving the surfaces, by quantity."""
-    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=couplings_of)
+    every = estimates(problem, Shown(*2 * [problem.hertz.peak_pressure], couplings_of))
     return every.get("normal_tangential_coupling")
 
 

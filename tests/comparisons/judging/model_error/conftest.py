@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scenes import STEEL, changed, problem
 
-from comparisons.judging.effects.catalogue import ModelVariant
+from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import NotComputedError
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.models.problem import Problem

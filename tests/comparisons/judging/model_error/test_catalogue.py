@@ -5,13 +5,13 @@ import pytest
 from comparisons.judging.effects.catalogue import (
     EFFECTS,
     UNKNOWN,
-    ModelVariant,
     contained,
     is_taken_apart,
     plain,
     with_effects,
 )
-from comparisons.judging.effects.catalogue import problem_with as problem_with_effects
+from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.effects.variants import problem_with as problem_with_effects
 
 SWITCHED = {
     "finite_size": {"body": {"thickness": 1e-3}},

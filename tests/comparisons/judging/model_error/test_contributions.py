@@ -8,9 +8,9 @@ from operator import sub
 import numpy as np
 import pytest
 
-from comparisons.judging.effects.catalogue import ModelVariant
-from comparisons.judging.effects.catalogue import problem_with as body_problem
 from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.effects.variants import problem_with as body_problem
 from comparisons.judging.model_error.contributions import (
     EffectContributions,
     NotComputedError,

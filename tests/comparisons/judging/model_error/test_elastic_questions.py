@@ -8,8 +8,7 @@ from scenes import STEEL, asked_in_python, changed, half_plane_at, resolved, run
 
 from analytic.grid import roller_gap
 from comparisons.common.errors import SceneError
-from comparisons.judging.effects.laws import EFFECT as LAW
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import FLOW, LAW
 from comparisons.judging.model_error.show import error_table
 from comparisons.judging.verdict.headline import headline
 from comparisons.judging.verdict.within import within_of

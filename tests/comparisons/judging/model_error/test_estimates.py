@@ -8,8 +8,8 @@ from scenes import STEEL, finite_elements, half_plane_at, problem, resolved
 from analytic.material import Law
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names
-from comparisons.judging.effects.catalogue import UNKNOWN
-from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.effects.catalogue import UNKNOWN, estimates
+from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.effects.laws import open_laws
 from comparisons.judging.rule import values_of
 from comparisons.models.posing import problem_of
@@ -29,7 +29,7 @@ def test_they_bound_every_point_of_a_finished_map(name):
         posed = problem_of(scene_with(base, groups))
         errors = point["quantities"]
         peak = errors["peak_pressure"]["half_plane"]
-        sizes = estimates(posed, peak, peak)
+        sizes = estimates(posed, Shown(peak, peak))
         for name in UNKNOWN:  # the maps take one law and one support
             sizes.pop(name, None)
         for quantity, error in errors.items():
@@ -66,8 +66,8 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
             fields |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
         posed = replace(plain, scene=plain.scene.unchecked(fields))
         peaks.append(float(finite_elements(posed).solution.pressure.max()))
-        assert "law_of_elasticity" not in estimates(posed, peaks[-1], peaks[-1])
-    bound = estimates(plain, peaks[0], peaks[0])["law_of_elasticity"]["peak_pressure"]
+        assert "law_of_elasticity" not in estimates(posed, Shown(peaks[-1], peaks[-1]))
+    bound = estimates(plain, Shown(peaks[0], peaks[0]))["law_of_elasticity"]["peak_pressure"]
     spread = [peak / peaks[0] - 1.0 for peak in peaks[1:]]
     assert 0.3 * bound < max(map(abs, spread)) < bound
 
@@ -84,7 +84,7 @@ def test_flow_without_a_cap_is_within_its_estimate(friction):
     plastic = finite_elements(flowing, posed.pitches[0], fields=True)
     values = [values_of(level, posed) for level in (elastic, plastic)]
     peak = posed.hertz.peak_pressure
-    bounds = estimates(posed, peak, peak)["plastic_flow"]
+    bounds = estimates(posed, Shown(peak, peak))["plastic_flow"]
     for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
         moved = abs(values[0][name] / values[1][name] - 1.0)
         assert moved <= bounds[name] <= 4.0 * moved, name

@@ -6,7 +6,7 @@ import pytest
 from scenes import STEEL, asked_in_python, changed, resolved, run_of
 
 from comparisons.common.errors import ExitStatus
-from comparisons.judging.effects.selection import FLOW
+from comparisons.judging.effects.catalogue import FLOW
 from comparisons.judging.model_error.contributions import split_variants
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.forecast import time_with_flow

@@ -7,7 +7,8 @@ import pytest
 from scenes import STEEL, finite_elements, problem, resolved, run_of
 
 from analytic.material import Law
-from comparisons.judging.effects.laws import EFFECT, open_laws, point_of
+from comparisons.judging.effects.catalogue import LAW as EFFECT
+from comparisons.judging.effects.laws import open_laws, point_of
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import Run
 from comparisons.scenes.materials import measured_solids, scaled_law, solids

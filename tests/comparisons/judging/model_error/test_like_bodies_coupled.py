@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scenes import STEEL, finite_elements, problem
 
+from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.effects.selection import select_effects
 from comparisons.judging.rule import relative_l2
 from comparisons.models.level import Level
@@ -45,5 +46,5 @@ def test_what_layers_and_coats_are_moved_otherwise_is_not_passed_over(name):
     posed, still = solved(BODIES[name])
     _, moved = solved(BODIES[name], coupled=True)
     assert relative_l2(moved.solution.pressure, still.solution.pressure) > 0.003
-    selection = select_effects(posed, posed.hertz.peak_pressure, ())
+    selection = select_effects(posed, Shown(*2 * [posed.hertz.peak_pressure]))
     assert "normal_tangential_coupling" in selection.added

@@ -5,14 +5,17 @@ from dataclasses import replace
 import pytest
 from scenes import NEO_HOOKEAN, judging
 
-from comparisons.judging.effects.selection import FLOW, SHARE_OF_TOLERANCE, select_effects
+from comparisons.judging.effects.catalogue import FLOW
+from comparisons.judging.effects.estimates import Shown
+from comparisons.judging.effects.selection import SHARE_OF_TOLERANCE, select_effects
 
 RIGID = {"roller": {"rigid": True}}
 DEEP = "tau1_max_depth"
 
 
 def chosen(problem, peak=None, couplings=()):
-    return select_effects(problem, peak or problem.hertz.peak_pressure, couplings)
+    peak = peak or problem.hertz.peak_pressure
+    return select_effects(problem, Shown(peak, peak, couplings))
 
 
 def judged(problem, **tolerance):
@@ -90,7 +93,7 @@ def test_finite_deformation_is_chosen_below_a_cap_too(problem_with):
 
 def test_an_open_law_is_solved_where_it_matters_and_counts_with_its_estimate_else(problem_with):
     for problem in (problem_with(**RIGID), problem_with()):
-        selection = select_effects(problem, 2e9, (), 1.5e9)
+        selection = select_effects(problem, Shown(2e9, 1.5e9))
         assert selection.laws and "finite_strain" in selection.added
         assert "law_of_elasticity" not in selection.not_modelled("peak_pressure")
         sizes = selection.estimates["law_of_elasticity"]

@@ -11,8 +11,8 @@ import pytest
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.effects.catalogue import ModelVariant
 from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error import solutions as solve
 from comparisons.judging.model_error.contributions import (
     NotComputedError,

@@ -10,9 +10,9 @@ from scenes import judged as figure_of
 from comparisons.common.numbers import with_unit
 from comparisons.figures.figure import Figure, Part
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.effects.laws import EFFECT as LAW
+from comparisons.judging.effects.catalogue import FLOW, LAW
 from comparisons.judging.effects.laws import open_laws
-from comparisons.judging.effects.selection import FLOW, EffectSelection
+from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.model_error import INTERACTION
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline

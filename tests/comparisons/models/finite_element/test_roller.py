@@ -9,7 +9,8 @@ from scenes import STEEL, changed, finite_elements, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
-from comparisons.judging.effects.estimates import estimates
+from comparisons.judging.effects.catalogue import estimates
+from comparisons.judging.effects.estimates import Shown
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
@@ -69,7 +70,7 @@ def test_supports_of_a_polymer_roller(support, off):
 def test_their_spread_lies_within_its_estimate_and_not_far(material, curvature):
     scene = posed(material, curvature, None)
     peak = scene.hertz.peak_pressure
-    bound = estimates(scene, peak, peak)["roller_support"]["peak_pressure"]
+    bound = estimates(scene, Shown(peak, peak))["roller_support"]["peak_pressure"]
     named = ("opposite", "half disc", "hub of 0.3", "hub of 0.5")
     off = {name: half_plane_off(material, curvature, name) for name in (*named, "sector")}
     spread = max(abs(off[name] - off["sector"]) for name in named)
@@ -80,7 +81,7 @@ def test_it_is_known_where_the_scene_says_it_or_nothing_bends():
     rigid = problem({"roller": {"radius": RADIUS, "rigid": True}, "body": dict(STEEL),
                      "load": {"per_length": 1e6}})  # fmt: skip
     for scene in (posed("steel", 0.05, "opposite"), rigid):
-        assert "roller_support" not in estimates(scene, 1e9, 1e9)
+        assert "roller_support" not in estimates(scene, Shown(1e9, 1e9))
 
 
 @pytest.mark.parametrize("support", ["sector", "opposite", "hub of 0.3"])
@@ -119,7 +120,7 @@ def test_an_independent_code_finds_the_same_with_that_support(support):
     # which the stated error covers where the scene does not say the support
     stated = half_plane_off("polymer", curvature, "sector")
     scene = posed("polymer", curvature, None)
-    bound = estimates(scene, 1e9, 1e9)["roller_support"]["peak_pressure"]
+    bound = estimates(scene, Shown(1e9, 1e9))["roller_support"]["peak_pressure"]
     assert abs(other - stated) < bound
     assert support != "opposite" or abs(other - stated) > 0.5 * bound
 
