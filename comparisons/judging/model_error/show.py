@@ -49,12 +49,12 @@ LOOKS = {
     True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
     False: {"facecolor": "#56B4E9", "edgecolor": "#333333", **style.HATCHED},
 }
-NOTE = """Model error: (half-plane − whole model) / whole model, which is a finite element
-solution with every effect that may matter here. A minus says that the half-plane's figure is
-too low. Contributions: each effect was computed by itself, as the difference that it makes in the
-finite elements; *interaction* is what the effects change jointly beyond their sum. A largest
-value is followed at the asperity where the whole model has it; *another asperity* is what the
-half-plane's largest exceeds its own value there, and both places are named. *Not modelled* under a
+NOTE = """Model error: (half-plane − whole model) / whole model, which is a finite element solution
+with every effect that may matter here. A minus says that the half-plane's figure is too low. In
+grey its contributions: each effect was computed by itself, as the difference that it makes in the
+finite elements; *interaction* is what the effects change jointly beyond their sum. A largest value
+is followed at the asperity where the whole model has it; *another asperity* is what the half-
+plane's largest exceeds its own value there, and both places are named. *Not modelled* under a
 quantity: effects that no model has may exceed its tolerance. The verdict is taken from these
 errors."""
 OF_EFFECTS = """An effect is computed where its estimate, from the scene's dimensionless groups,
@@ -85,18 +85,20 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 
 def error_table(run: Run, brief: bool = False) -> TextTable:
-    """The half-plane's figures, the whole model's and the errors; beside them what they are made
-    of, where any is split; below a name what is not modelled of it, and where the whole has its
-    largest value if not at the half-plane's asperity.
+    """The half-plane's figures, the whole model's and the errors; below a name what the error is
+    made of, what is not modelled of it, and where the whole has its largest value if not at the
+    half-plane's asperity.
 
-    brief  for a terminal: what is judged, and most of what makes it up"""
+    brief  for a terminal: what is judged, and beside it most of what makes it up"""
     errors = [error for error in run.figures.of(study=MODEL_ERROR) if error.bounds or not brief]
     of_contact = run.figures.of(study=contact.NAME, source=MODELS[0])
     known = [of_contact.one(quantity=error.quantity, at=error.at) for error in errors]
     known += [_whole(run, error) for error in errors]
 
     def below(figure: Figure) -> str:
-        said = () if figure.against is None or brief else (_not_known(run, figure), _moved(figure))
+        if figure.against is None or brief:
+            return ""
+        said = ", ".join(contributions(run, figure)), _not_known(run, figure), _moved(figure)
         return "\n".join(filter(None, said))
 
     def size(error: Figure) -> tuple[str, str]:
@@ -110,8 +112,6 @@ def error_table(run: Run, brief: bool = False) -> TextTable:
         return "\n".join(filter(None, (largest, _not_known(run, error))))
 
     beside = {"mostly by, %": most} if brief else {}
-    if not brief and any(contributions(run, error) for error in errors):
-        beside = {"dominant contributions": lambda error: ", ".join(contributions(run, error))}
     return figure_table((*known, *errors), QUANTITIES, "", below, beside, size, brief)
 
 
