@@ -33,8 +33,6 @@ def read_mesh(path: Path, step: int | None) -> "PolyData":
     """The outer faces of a mesh, triangles between all of their nodes, with the arrays at these, at
     a step in time, the last by default; a plane mesh is all face. Raises ValueError with what is
     wrong."""
-    import pyvista
-
     with TemporaryDirectory() as folder:
         out = Path(folder) / "faces.vtp"
         steps = [] if step is None else [str(step)]
@@ -44,6 +42,8 @@ def read_mesh(path: Path, step: int | None) -> "PolyData":
         except ReaderError as error:
             whole = "" if "allowed" in str(error) else "; allowed is a whole result file"
             raise ValueError(f"{error}{whole}") from None
+        import pyvista
+
         return pyvista.read(out)
 
 
