@@ -97,38 +97,30 @@ class HeatSection(SceneSection):
             yield "slide_to_roll", "is 0, which slides nowhere; allowed is from -2 to 2 but for 0"
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        elements, coated = scene.finite_element, scene.coating is not None
         if not any(scene.load.friction):
             yield "heat", "is given without friction; allowed with load.friction above 0"
         if self.base is not None and scene.body.thickness is None:
             unbounded = "is given for a half-plane, which has none"
             yield "heat.base", f"{unbounded}; allowed with body.thickness"
-        yield from self._of_stresses(scene)
-        expansion = ("expansion",) if self.stresses else ()
-        for name in (f"coating_{constant}" for constant in (*CONSTANTS, *expansion)):
+        needed = {f"coating_{constant}": coated for constant in CONSTANTS}
+        needed |= {"body_expansion": self.stresses, "coating_expansion": self.stresses and coated}
+        for name, is_needed in needed.items():
             is_there = getattr(self, name) is not None
-            if is_there and scene.coating is None:
+            if is_there and name.startswith("coating") and not coated:
                 yield f"heat.{name}", "is given for a body without one; allowed with [coating]"
-            if scene.coating is not None and not is_there:
-                yield f"heat.{name}", f"is missing; allowed is {allowed(type(self), name)}"
-
-    def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        """What thermal stresses lack, or cannot be added to."""
-        if not self.stresses:
-            for name in ("body_expansion", "coating_expansion"):
-                if getattr(self, name) is not None:
-                    yield f"heat.{name}", "is given without use; allowed with stresses = true"
-            return
-        if self.body_expansion is None:
-            needed = allowed(type(self), "body_expansion")
-            yield "heat.body_expansion", f"is missing for stresses = true; allowed is {needed}"
-        elements = scene.finite_element
+            elif is_there and not is_needed:
+                yield f"heat.{name}", "is given without use; allowed with stresses = true"
+            elif is_needed and not is_there:
+                why = " for stresses = true" if name == "body_expansion" else ""
+                yield f"heat.{name}", f"is missing{why}; allowed is {allowed(type(self), name)}"
         for there, what in (
             (scene.stress is None, "without [stress]; allowed with it"),
             (scene.body.width is not None, "for a body of finite width; allowed without"),
             (elements.nonlinear, "beside a nonlinear body; allowed for a linear elastic one"),
             (elements.element == "P1", 'with linear elements; allowed with element = "P2" or "P3"'),
         ):
-            if there:
+            if self.stresses and there:
                 yield "heat.stresses", f"is true {what}"
 
 
