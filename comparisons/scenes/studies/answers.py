@@ -130,14 +130,13 @@ def answers_named(options: Sequence[str], known: object, units: str | None = Non
         if not (name and file):
             raise InputError(f"--answer: is {describe(text)}; allowed is NAME=FILE")
         path = Path(file).absolute()
-        files = [os.fspath(path)]
+        table, files = dict(tables.get(name) or {}), [path.name]
         if path.suffix == ".toml":
-            tables[name] = read_toml(path)
-            files = tables[name].get("file", [])
+            table = read_toml(path)
+            files = table.get("file", [])
             files = [files] if isinstance(files, str) else files
-            files = [os.fspath(path.parent / entry) for entry in map(str, files)]
-        named.setdefault(name, []).extend(files)
-        tables[name] = dict(tables.get(name) or {}) | {"file": named[name]}
+        named.setdefault(name, []).extend(os.fspath(path.parent / str(one)) for one in files)
+        tables[name] = table | {"file": named[name]}
         if units is not None:
             tables[name]["units"] = units_named(units)
     return tables
