@@ -176,22 +176,22 @@ def finite_elements(
     from comparisons.common.progress import Stages
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
-    from comparisons.models.plan import make_plan
     from comparisons.models.window import window_of
 
-    plan, window = make_plan(posed, ("finite_element",)), window_of(posed) if fields else None
+    window = window_of(posed) if fields else None
     asked = Refinement(pitch or posed.pitches[0], **refinement)
-    return next(iter(finite_element_level(posed, plan, asked, window, Stages()).values()))
+    return next(iter(finite_element_level(posed, asked, window, Stages()).values()))
 
 
 def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
     """The half-plane on one level, as `finite_elements` has theirs."""
     from comparisons.common.progress import Stages
-    from comparisons.models.analytic import half_plane_level
+    from comparisons.models.analytic import analytic_level
     from comparisons.models.window import window_of
 
     window = window_of(posed) if fields else None
-    levels = half_plane_level(posed, pitch or posed.pitches[0], window, Stages())
+    grid = posed.grid(pitch or posed.pitches[0])
+    levels = analytic_level(posed, posed.half_plane_effects, grid, window, Stages(), fields)
     return next(iter(levels.values()))
 
 

@@ -89,14 +89,6 @@ def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]
     return frozenset(effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else set()))
 
 
-def half_plane_level(
-    problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
-) -> dict[float, Level]:
-    """Solve one level of the scene's half-plane."""
-    model = problem, problem.half_plane_effects, problem.grid(pitch)
-    return analytic_level(*model, window, stages, fields)
-
-
 def analytic_level(
     problem: Problem,
     effects: frozenset[str],

@@ -8,9 +8,9 @@ import numpy as np
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
-from comparisons.models.analytic import expected_with
-from comparisons.models.level import ExpectedCost, ModelRun, flowing_contact
-from comparisons.models.plan import LONGER, Plan, make_plan
+from comparisons.models.level import ModelRun, flowing_contact
+from comparisons.models.model import scene_model
+from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, window_of
 
@@ -58,12 +58,12 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     scene, levels, total, ends = problem.scene, [], 0.0, ""
     window = window_of(problem) if plan.stress else None
     plastic = scene.finite_element.plastic
-    patches = flowing_contact(problem) if plastic else np.array([problem.extent])
-    for number in range(problem.most_levels):
-        pitch = problem.pitches[0] / 2.0**number
+    patches = flowing_contact(problem) if plastic else None
+    for number in range(1, problem.most_levels + 1):
+        pitch = problem.pitch_of(number)
         elements = problem.grid(pitch).count
-        how = plan, pitch, patches, window
-        costs = [expected_level(name, problem, *how) for name in plan.models]
+        models = (scene_model(name, problem) for name in plan.models)
+        costs = [model.cost(problem, number, window, patches) for model in models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
         if levels and total > problem.time:
@@ -85,38 +85,16 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     )
 
 
-def expected_level(
-    model: str,
-    problem: Problem,
-    plan: Plan,
-    pitch: float,
-    patches: np.ndarray,
-    window: Window | None = None,
-) -> ExpectedCost:
-    """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]; of the
-    half-plane with the stresses on a window."""
-    moved = problem.scene.finite_element.coupled
-    if model == "half_plane":
-        cost, moved = expected_with(problem, pitch, window), problem.coupling
-    else:
-        from comparisons.models.finite_element.cost import expected
-        from comparisons.models.finite_element.mesh import Refinement
-
-        cost = expected(problem, plan, Refinement(pitch), patches)
-    contacts = len(problem.scene.load.friction) if moved else 1
-    return replace(cost, seconds=contacts * cost.seconds)
-
-
 def with_one_more(
-    problem: Problem, plan: Plan, window: Window | None, runs: Mapping[str, ModelRun]
+    problem: Problem, window: Window | None, runs: Mapping[str, ModelRun]
 ) -> tuple[float, float]:
     """Seconds of all levels that the models have and of one more of each, and memory [bytes] of the
     largest of these."""
     time = sum(level.expected_seconds for run in runs.values() for level in run.levels)
     memory = 0.0
     for name, run in runs.items():
-        pitch, patches = 0.5 * run.finest.grid.pitch, run.finest.patches
-        finer = expected_level(name, problem, plan, pitch, patches, window)
+        how = len(run.levels) + 1, window, run.finest.patches
+        finer = scene_model(name, problem).cost(problem, *how)
         time, memory = time + finer.seconds, max(memory, finer.memory)
     return time, memory
 
@@ -124,25 +102,22 @@ def with_one_more(
 def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     """Of flow on the first two levels, at small strains with the check of its increments, for every
     friction coefficient, by the laws of cost."""
-    from comparisons.models.finite_element.cost import expected
-    from comparisons.models.finite_element.mesh import Refinement
-    from fem.nonlinear.press_plastic import TRAVEL
-
     switches = {"finite_element.plastic": True, "finite_element.deformation": "linear"}
-    flowing = replace(problem, scene=problem.scene.unchecked(switches))
-    plan, coarsest = make_plan(flowing, MODELS), problem.pitches[0]
-    refinements = [Refinement(coarsest), Refinement(0.5 * coarsest)]
-    refinements += [Refinement(coarsest, travel=times * TRAVEL) for times in LONGER]
-    seconds = sum(expected(flowing, plan, one, patches).seconds for one in refinements)
+    flowing = problem.under(problem.largest_friction)
+    flowing = replace(flowing, scene=flowing.scene.unchecked(switches))
+    model = scene_model("finite_element", flowing)
+    levels = (model, 1), (model, 2), *((replace(model, times=times), 1) for times in LONGER)
+    seconds = sum(one.cost(flowing, number, patches=patches).seconds for one, number in levels)
     return len(problem.scene.load.friction) * seconds
 
 
-def time_with_flow(problem: Problem, plan: Plan, patches: np.ndarray) -> float:
-    """Of the levels asked for, and of flow [s], in contact on `patches` (k, 2) [m]."""
+def time_with_flow(problem: Problem, patches: np.ndarray) -> float:
+    """Of the levels asked for of both models, and of flow [s], in contact on `patches` (k, 2)
+    [m]."""
     seconds_of_parts = (
-        expected_level(name, problem, plan, pitch, patches).seconds
-        for name in plan.models
-        for pitch in problem.pitches
+        scene_model(name, problem).cost(problem, number, patches=patches).seconds
+        for name in MODELS
+        for number in range(1, len(problem.pitches) + 1)
     )
     return sum(seconds_of_parts) + flow_seconds(problem, patches)
 

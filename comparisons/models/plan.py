@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.problem import Problem
-from comparisons.scenes.scene import Scene, sections_of
+from comparisons.scenes.scene import sections_of
 
 LONGER = (4, 2)  # times as long increments of plastic flow, of their check
 
@@ -26,7 +26,6 @@ class Plan:
 
     models: tuple[str, ...]  # of MODELS
     stress: bool  # compute subsurface fields
-    shared_factor: bool  # the roller's block is the body's with another modulus: one factorisation
     coupling: bool  # solve the half-plane with and without normal-tangential coupling
     effects: bool  # compute effects beside the scene's own where their estimates ask for it
     domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
@@ -51,7 +50,6 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     plan = Plan(
         models,
         stress=scene.stress is not None,
-        shared_factor=finite_elements and _shares_factor(scene),
         coupling=half_plane and not all(uncoupled),
         effects=compares and bool(scene.budget.effects) and bool(scene.tolerances),
         domain_check=finite_elements and unbounded,
@@ -85,7 +83,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         unasked = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
         steps += [
             (scene.roller.rigid, "mesh of the roller", "it is rigid"),
-            (plan.shared_factor, "factorisation of the roller's block", shared),
+            (problem.shares_factor, "factorisation of the roller's block", shared),
             (not plan.effects, "effects beside the scene's own finite elements", unasked),
             (not unbounded, "check of the far boundary", "the body's boundaries are its own"),
             (not settings.plastic, "check of the increments of flow", "no body flows"),
@@ -104,13 +102,3 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
     if problem.scene.periodic:
         return "the operator of a periodic surface has none"
     return None
-
-
-def _shares_factor(scene: Scene) -> bool:
-    """Whether the roller's block is the body's but for a factor on its modulus."""
-    settings, roller = scene.finite_element, scene.roller.material
-    bounds = scene.body.thickness, scene.body.width, scene.coating
-    # at finite deformation a body's boundary is its shape
-    same_body = bounds == (None, None, None) and not settings.nonlinear
-    alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
-    return alike and same_body and settings.roller_body == "half-plane"

@@ -70,6 +70,10 @@ class Problem:
         """Pitch of the third level [m], which element sizes and depths refer to."""
         return self.pitches[0] / 4.0
 
+    def pitch_of(self, number: int) -> float:
+        """Pitch [m] of a level, coarse to fine; the first has number 1."""
+        return self.pitches[0] / 2.0 ** (number - 1)
+
     def coarser(self, pitch: float) -> int:
         """Levels from a pitch to the third; negative for finer ones."""
         return round(np.log2(pitch / self.reference_pitch))
@@ -149,6 +153,16 @@ class Problem:
         """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out.
         Of several coefficients the largest."""
         return self.largest_friction * self.dundurs_beta if self.scene.load.coupled else 0.0
+
+    @property
+    def shares_factor(self) -> bool:
+        """Whether the roller's block is the body's but for a factor on its modulus."""
+        scene, settings, roller = self.scene, self.scene.finite_element, self.scene.roller.material
+        bounds = scene.body.thickness, scene.body.width, scene.coating
+        # at finite deformation a body's boundary is its shape
+        same_body = bounds == (None, None, None) and not settings.nonlinear
+        alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
+        return alike and same_body and settings.roller_body == "half-plane"
 
     @property
     def half_plane_effects(self) -> frozenset[str]:

@@ -3,19 +3,18 @@
 In: a scene and its plan. Out: the levels of every model, and why there are no more."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
 
-from comparisons.common.progress import Stages, machine_memory
-from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
+from comparisons.common.progress import machine_memory
+from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Tasks
 from comparisons.figures.quantity import label
 from comparisons.judging.comparison import discretisations
 from comparisons.judging.model_error.solutions import LEAST_LEVELS
 from comparisons.judging.study import Solved
-from comparisons.models.forecast import expected_level, with_one_more
+from comparisons.models.forecast import with_one_more
 from comparisons.models.level import (
     ExpectedCost,
     Level,
@@ -23,9 +22,8 @@ from comparisons.models.level import (
     flowing_contact,
     refuse_too_large,
 )
-from comparisons.models.plan import LONGER, Plan
-from comparisons.models.problem import Problem
-from comparisons.models.window import Window
+from comparisons.models.model import Model, scene_model
+from comparisons.models.plan import LONGER
 from fem.solver.mumps import FemError
 
 Levels = dict[float, Level]  # one model's on one pitch, by friction coefficient
@@ -87,141 +85,76 @@ def _not_resolved(names: Iterable[str], why: str) -> str:
     return f"{open_now} not resolved to a third of the tolerance: {why}"
 
 
-@dataclass(frozen=True)
-class _LevelTask:
-    """One level of one model, or of finite elements a check: with the far boundary at half the
-    distance, or with increments of plastic flow that are so many `times` as long."""
-
-    problem: Problem
-    plan: Plan
-    window: Window | None
-    name: str
-    number: int  # from 1, coarse to fine
-    half_block: bool = False
-    times: int = 1
-
-    @property
-    def pitch(self) -> float:
-        return self.problem.pitches[0] / 2.0 ** (self.number - 1)
-
-    @property
-    def key(self) -> str:
-        if self.half_block:
-            return f"{self.name}-far_boundary_check"
-        return f"{self.name}-{self.number if self.times == 1 else f'increments_{self.times}'}"
-
-    @property
-    def urgency(self) -> int:
-        if (self.name, self.number) == ("half_plane", 1):  # for which the others wait
-            return AT_ONCE
-        # the finest level that is asked for lasts longest of all
-        first = self.name == "half_plane" or self.number == len(self.problem.pitches)
-        return FIRST if first else NEEDED
-
-    def expected(self, patches: np.ndarray) -> ExpectedCost:
-        how = self.plan, self.pitch, patches, self.window
-        return expected_level(self.name, self.problem, *how)
-
-    def solve(self, here: Here) -> dict[float, Level]:
-        """By friction coefficient. Imports what this model needs alone."""
-        words = f"level {self.number}"
-        if self.half_block:
-            words = "far boundary at half the distance"
-        elif self.times > 1:
-            words = f"increments of flow {self.times} times as long"
-        stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
-        if self.name == "half_plane":
-            from comparisons.models.analytic import half_plane_level
-
-            how = self.problem, self.pitch, self.window, stages
-            return half_plane_level(*how)
-        from comparisons.models.finite_element.bodies import BodyCache
-        from comparisons.models.finite_element.level import finite_element_level
-        from comparisons.models.finite_element.mesh import Refinement
-        from fem.nonlinear.press_plastic import TRAVEL
-
-        return finite_element_level(
-            self.problem,
-            self.plan,
-            Refinement(self.pitch, self.half_block, self.times * TRAVEL),
-            self.window,
-            stages,
-            here.held("bodies", self.pitch, BodyCache),
-        )
-
-
 class _Levels:
     """The levels of a plan's models, as tasks and solved."""
 
     def __init__(self, scene: Solved, tasks: Tasks) -> None:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
-        self.task = partial(_LevelTask, scene.problem, scene.plan, scene.window)
-        check = partial(self.task, "finite_element", 1)
-        self.checks = [check(half_block=True)] if self.plan.domain_check else []
+        names = scene.plan.models
+        self.models = {name: scene_model(name, scene.problem, fields=True) for name in names}
+        elements = self.models.get("finite_element")
+        self.checks = [replace(elements, half_block=True)] if self.plan.domain_check else []
         if self.plan.increments_check:
-            self.checks += [check(times=times) for times in LONGER]
-        self.levels: dict[str, list[Levels]] = {name: [] for name in self.plan.models}
-        self.patches = np.array([self.problem.extent])  # of contact, by which costs are expected
+            self.checks += [replace(elements, times=times) for times in LONGER]
+        self.levels: dict[str, list[Levels]] = {name: [] for name in names}
+        self.patches: np.ndarray | None = None  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
         self.machine = machine_memory()
+        # [s] of a half-plane's level that this process solves itself while others are at work
+        self.short = SHORT if self.plan.compares else 0.0
 
     def begin(self, begin: Callable[[Solved], None]) -> None:
         """Make known the levels that the scene asks for; the half-plane's first tells what the
         others will take. With the half-plane on all of them call `begin`."""
         asked = range(1, len(self.problem.pitches) + 1)
-        if "half_plane" in self.levels:  # first, while nothing else is in memory
-            for task in (self.task("half_plane", number) for number in asked):
-                cost = task.expected(self.patches)
-                refuse_too_large(self.problem, cost, "half-plane pressures", task.pitch)
-                if task.number == 1 or not self.is_short(task, cost):  # those: beside the others
-                    self.add(task)
+        if "half_plane" in self.models:  # first, while nothing else is in memory
+            for number in asked:
+                cost, pitch = self.cost("half_plane", number), self.problem.pitch_of(number)
+                refuse_too_large(self.problem, cost, "half-plane pressures", pitch)
+                if number == 1 or cost.seconds >= self.short:  # others: beside finite elements
+                    self.add(self.models["half_plane"], number)
             self.wait(1, ["half_plane"])
             first, *_ = self.levels["half_plane"][0].values()
             self.patches = first.patches
             if self.problem.scene.finite_element.plastic:
                 self.patches = flowing_contact(self.problem)
-        if "finite_element" in self.levels:
+        if "finite_element" in self.models:
             for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
-                self.add(self.task("finite_element", number))
-            for task in self.checks:
-                self.add(task)
-        if "half_plane" in self.levels:
+                self.add(self.models["finite_element"], number)
+            for model in self.checks:
+                self.add(model)
+        if "half_plane" in self.models:
             begin(self.solved(len(self.problem.pitches), ["half_plane"]))
 
-    def add(self, task: _LevelTask) -> None:
-        cost = task.expected(self.patches)
-        self.tasks.add(
-            task.key,
-            task.solve,
-            seconds=cost.seconds,
-            memory=cost.memory,
-            urgency=task.urgency,
-            shares=None if task.name == "half_plane" else task.pitch,
-            by_itself=self.is_short(task, cost),
-        )
+    def cost(self, name: str, number: int) -> ExpectedCost:
+        return self.models[name].cost(self.problem, number, self.scene.window, self.patches)
 
-    def is_short(self, task: _LevelTask, cost: ExpectedCost) -> bool:
-        """Whether this process solves a level itself while others are at work."""
-        is_alone = task.name == "half_plane" and "finite_element" in self.levels
-        return is_alone and cost.seconds < SHORT
+    def add(self, model: Model, number: int = 1) -> str:
+        """The key of a level's task."""
+        is_half_plane = model.name == "half_plane"
+        # the finest level that is asked for lasts longest of all
+        first = is_half_plane or number == len(self.problem.pitches)
+        urgency = FIRST if first else NEEDED
+        if is_half_plane and number == 1:  # for which the others wait
+            urgency = AT_ONCE
+        how = self.problem, number, self.scene.window, self.patches, urgency
+        return model.announce(self.tasks, *how, self.short if is_half_plane else 0.0)
 
     def wait(self, number: int, models: Iterable[str]) -> None:
         """Have the levels of the models up to a number."""
-        missing = [
-            self.task(name, level)
+        missing = {
+            (name, level): self.add(self.models[name], level)
             for name in models
             for level in range(len(self.levels[name]) + 1, number + 1)
-        ]
-        for task in missing:
-            self.add(task)
-        for task in missing:
-            self.levels[task.name].append(self.tasks.result(task.key))
+        }
+        for (name, _), key in missing.items():
+            self.levels[name].append(self.tasks.result(key))
 
     def affordable(self, asked: Iterable[int]) -> list[int]:
         """Numbers of the finite elements' levels before the one that it may not come to."""
         time, budget, within = 0.0, self.problem.scene.budget, []
         for number in asked:
-            cost = self.task("finite_element", number).expected(self.patches)
+            cost = self.cost("finite_element", number)
             time += cost.seconds
             if time > self.problem.time or cost.memory > min(budget.memory, self.machine):
                 break
@@ -240,32 +173,32 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again, cases = [*filter(None, map(self._check, self.checks))], []
+        again: dict[Model, Levels] = {}
+        for model in self.checks:
+            try:
+                again[model] = self.tasks.result(self.add(model))
+            except FemError:  # the longest increments Newton's method may not bear
+                if model.times < max(LONGER):
+                    raise
+        cases = []
         for case in solved.cases:
-            runs, mine = dict(case.runs), [levels[case.friction] for levels in again]
-            if mine:
-                far = mine.pop(0) if self.plan.domain_check else None
-                runs["finite_element"] = replace(
-                    runs["finite_element"], far_boundary_check=far, longer_increments=tuple(mine)
-                )
+            runs = dict(case.runs)
+            for model, levels in again.items():
+                run, level = runs[model.name], levels[case.friction]
+                if model.half_block:
+                    runs[model.name] = replace(run, far_boundary_check=level)
+                else:
+                    longer = *run.longer_increments, level
+                    runs[model.name] = replace(run, longer_increments=longer)
             cases.append(replace(case, runs=runs))
         return replace(solved, cases=tuple(cases), refinement=why)
-
-    def _check(self, task: _LevelTask) -> Levels | None:
-        """A check; None of the longest increments, which Newton's method may not bear."""
-        try:
-            return self.tasks.result(task.key)
-        except FemError:
-            if task.times < max(LONGER):
-                raise
-            return None
 
     def spent(self, runs: Mapping[str, ModelRun]) -> str | None:
         """Why one more level of every model would exceed the budget, or the machine's memory, or
         None. Time is that of the laws by which levels are planned: by a clock, a busy machine would
         stop at other figures."""
         budget = self.problem.scene.budget
-        time, memory = with_one_more(self.problem, self.plan, self.scene.window, runs)
+        time, memory = with_one_more(self.problem, self.scene.window, runs)
         if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"
         if memory > budget.memory:

@@ -12,7 +12,6 @@ from analytic.profile import Profile
 from analytic.surface.roughness import bearing_curve, power_spectrum
 from comparisons.campaigns.init.guess import ProfileFields
 from comparisons.common.numbers import scale_of, with_unit
-from comparisons.common.progress import Stages
 from comparisons.drawing.style import WIDE, drawing, figure, svg
 from comparisons.output.page.tables.problem import STANDARD, roughness_notes, roughness_rows
 from comparisons.output.plausibility import warnings_about_surface
@@ -95,12 +94,13 @@ def init_table(made: FirstScene) -> "RenderableType":
 
 def first_lines(scene: Scene) -> tuple[str, str]:
     """The half-plane's answer on the coarsest level, and estimates of what it leaves out."""
+    from comparisons.common.tasks import Here
     from comparisons.judging.model_error.study import early_lines
-    from comparisons.models.analytic import half_plane_level
+    from comparisons.models.model import scene_model
     from comparisons.models.posing import problem_of
 
     problem = problem_of(scene)
-    levels = half_plane_level(problem, problem.pitches[0], None, Stages())
+    levels = scene_model("half_plane", problem).solve(Here(), problem, 1, None)
     friction, level = max(levels.items(), key=itemgetter(0))
     return early_lines(problem.under(friction), level)
 

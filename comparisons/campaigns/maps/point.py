@@ -5,17 +5,17 @@ uncertainty, never by the clock, so that a point has the same answer wherever it
 uncertainty is that of a run's comparison."""
 
 from collections.abc import Iterator
-from functools import lru_cache
+from dataclasses import replace
 
 import numpy as np
 
 from comparisons.campaigns.grid import SOLVED, Point, failed
-from comparisons.common.progress import Stages
+from comparisons.common.tasks import Here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.rule import judged, values_of
-from comparisons.models.analytic import half_plane_level
 from comparisons.models.level import Level, ModelRun
+from comparisons.models.model import Model, scene_model
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -81,33 +81,24 @@ def _refined(
     problem: Problem, plan: Plan, window: Window | None, friction: float
 ) -> Iterator[Runs]:
     """Both models on the first levels, then with one more each time, while there may be."""
-    from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import finite_element_level
-    from comparisons.models.finite_element.mesh import Refinement
-
-    def solved(pitch: float, half_block: bool = False) -> Level:
-        refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
-        how = refinement, window, Stages(), body_cache
-        return finite_element_level(problem, plan, *how, fields=False)[friction]
-
-    @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh
-    def bodies(pitch: float) -> BodyCache:
-        return BodyCache()
-
     half_plane: list[Level] = []
     finite_element: list[Level] = []
-    pitch = problem.pitches[0]
+    plane, elements = (scene_model(name, problem) for name in MODELS)
     least = len(problem.pitches) + (ROUGH_MORE if problem.scene.profile is not None else 0)
-    check = solved(pitch, half_block=True) if plan.domain_check else None
+    here = Here()
+
+    def solved(model: Model, number: int) -> Level:
+        return model.solve(here, problem, number, window)[friction]
+
+    check = solved(replace(elements, half_block=True), 1) if plan.domain_check else None
     for number in range(1, problem.most_levels + 1):
         try:
-            finite_element.append(solved(pitch))
+            finite_element.append(solved(elements, number))
         except MeshError:
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        levels = half_plane_level(problem, pitch, window, Stages(), fields=False)
-        half_plane.append(levels[friction])
+        half_plane.append(solved(plane, number))
         if number >= least:
             yield {
                 "half_plane": ModelRun("half_plane", tuple(half_plane)),
@@ -115,4 +106,3 @@ def _refined(
             }
             if GROWTH * finite_element[-1].unknowns > MOST_UNKNOWNS:
                 break
-        pitch *= 0.5

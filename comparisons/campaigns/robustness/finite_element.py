@@ -29,13 +29,11 @@ from comparisons.campaigns.robustness.measures import (
     peak_and_length,
     residual_figures,
 )
-from comparisons.common.progress import Stages
+from comparisons.common.tasks import Here
 from comparisons.figures.figure import Figure
-from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
+from comparisons.models.model import scene_model
 from comparisons.models.operators import operator_of, pressed_on
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
@@ -131,10 +129,9 @@ def problem_with(tables: Tables) -> Problem:
 def solved(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
     """The same on the coarsest level, or on one `refinement` levels finer."""
     problem = problem_with(tables)
-    plan = make_plan(problem, ("finite_element",))
-    pitch = problem.pitches[0] / 2.0**refinement
     window = None if problem.scene.stress is None else window_of(problem)
-    level, *_ = finite_element_level(problem, plan, Refinement(pitch), window, Stages()).values()
+    model = scene_model("finite_element", problem, fields=True)
+    level, *_ = model.solve(Here(), problem, 1 + refinement, window).values()
     return problem, level
 
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from comparisons.campaigns.cases import CaseFigures, Trial, bounded
 from comparisons.common.progress import Stages
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
 
@@ -35,13 +34,12 @@ def independent_figures(name: str) -> CaseFigures:
 
     scene = Scene.of(SCENES[name], Origin("verify", source=f"verify: {name}"))
     problem = problem_of(scene)
-    plan = make_plan(problem, ("finite_element",))
     refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
-    how = problem, plan, refinement, None, Stages(), body_cache
+    how = problem, refinement, None, Stages(), body_cache
     level, *_ = finite_element_level(*how).values()
     grid = level.grid
     # the bodies that the level was solved on, by the patches that its mesh is refined at
-    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), body_cache)
+    bodies = bodies_of(problem, refinement, level.patches, Stages(), body_cache)
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
     load = problem.hertz.load_per_length
     other = solve_variational_inequality(

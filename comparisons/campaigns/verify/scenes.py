@@ -28,8 +28,7 @@ from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
 from comparisons.campaigns.cases import Trial
 from comparisons.campaigns.verify.coverage import EXACT, PRESSURE, compared
-from comparisons.common.progress import Stages, no_progress
-from comparisons.common.tasks import Tasks
+from comparisons.common.tasks import Here, Tasks
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
@@ -37,7 +36,7 @@ from comparisons.figures.uncertainty import numerical
 from comparisons.judging import contact
 from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.study import MODEL_ERROR, unsolved
-from comparisons.models.analytic import half_plane_level
+from comparisons.models.model import scene_model
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
@@ -58,7 +57,7 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
 LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
 LAYER_SOURCE = "slope equation by collocation, analytic/exact/layer_contact.json"
-FINER = 8.0
+FINE = 6  # level of a half-plane, a reference
 NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives the same
 
 # The clock must not decide on a fourth.
@@ -270,10 +269,10 @@ def smooth_half_plane(problem: Problem) -> dict[str, float]:
 
 
 def fine_half_plane(problem: Problem) -> dict[str, float]:
-    """Figures of the half-plane on pressure elements FINER times as small as the third level's."""
-    pitch, (friction,) = problem.reference_pitch / FINER, problem.scene.load.friction
-    levels = half_plane_level(problem, pitch, window_of(problem), Stages(no_progress))
-    return values_of(levels[friction], problem)
+    """Figures of the half-plane on the FINE level."""
+    how = Here(), problem, FINE, window_of(problem)
+    [level] = scene_model("half_plane", problem).solve(*how).values()
+    return values_of(level, problem)
 
 
 def elastic_table(material: Material | None) -> dict:

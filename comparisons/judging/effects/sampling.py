@@ -9,16 +9,13 @@ from dataclasses import replace
 from math import inf
 
 from comparisons.common.numbers import significant, with_unit
-from comparisons.common.progress import Stages
-from comparisons.common.tasks import LAST, Here, Tasks
+from comparisons.common.tasks import LAST, Tasks
 from comparisons.judging.effects.estimates import Sizes
 from comparisons.judging.model_error.quantities_of_interest import quantities_of
 from comparisons.judging.rule import relative_differences
 from comparisons.judging.study import Solved
-from comparisons.models.analytic import expected_of, half_plane_level
-from comparisons.models.level import Level
+from comparisons.models.model import scene_model
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 
 FEWEST = 20  # samples of a measured trace on the contact
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
@@ -53,24 +50,13 @@ def sampling_changes(solved: Solved, tasks: Tasks) -> Sizes:
 
 def announce_sampling(solved: Solved, tasks: Tasks) -> list[str]:
     """The keys of the tasks that solve from the even and from the odd samples."""
-    problem, window, levels = solved.problem, solved.window, solved.runs["half_plane"].levels
-    if problem.scene.profile is None:
-        return []
-    number = min(SAMPLED, len(levels))
-    keys, grid = [f"sampling-{first}-{number}" for first in (0, 1)], levels[number - 1].grid
-    cost = expected_of(grid.count)
-    size = {"seconds": cost.seconds, "memory": cost.memory}
-    for first, key in enumerate(keys):
-        tasks.add(key, _sampled, problem, first, grid.pitch, window, **size, urgency=LAST)
+    problem, number = solved.problem, min(SAMPLED, len(solved.runs["half_plane"].levels))
+    keys, own = [], scene_model("half_plane", problem)
+    for first in (0, 1) if problem.scene.profile is not None else ():
+        model = replace(own, name=f"sampling-{first}", label="sampling of the trace")
+        how = tasks, _thinned(problem, first), number, solved.window
+        keys.append(model.announce(*how, urgency=LAST))
     return keys
-
-
-def _sampled(
-    here: Here, problem: Problem, first: int, pitch: float, window: Window | None
-) -> dict[float, Level]:
-    here.callback("error budget: sampling of the trace")
-    thinned = _thinned(problem, first)
-    return half_plane_level(thinned, pitch, window, Stages(), fields=False)
 
 
 def _thinned(problem: Problem, first: int) -> Problem:

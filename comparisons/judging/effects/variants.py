@@ -26,12 +26,10 @@ class ModelVariant:
 
     @property
     def name(self) -> str:
-        """Of its file in a cache."""
+        """Of its levels among the tasks of a run, beside what these check."""
         words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
         words += ["quadratic"] * self.quadratic
         words += [f"as-{self.laws_name}"] * bool(self.laws)
-        words += [f"increments-{self.times}"] * (self.times > 1)
-        words += ["half-block"] * self.half_block
         at = "" if self.friction is None else f"@{self.friction:g}"
         return f"effect-{'+'.join(words)}{at}"
 

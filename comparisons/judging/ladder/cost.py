@@ -11,8 +11,9 @@ elements, other operators, coarser and finer ones. Seconds are those of the stag
 
 import math
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import takewhile
 from operator import itemgetter
 from typing import TYPE_CHECKING
@@ -20,28 +21,20 @@ from typing import TYPE_CHECKING
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError, SolverError, defect, one_line
 from comparisons.common.numbers import percent, percent_as_written, with_unit
-from comparisons.common.progress import Stages
-from comparisons.common.tasks import LAST, Here, Tasks
+from comparisons.common.tasks import LAST, Tasks
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
 from comparisons.drawing.curves import joint_legend
 from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
-from comparisons.figures.quantity import LABELS, QUANTITIES, WHOLE, label
+from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
-from comparisons.models.analytic import (
-    analytic_level,
-    carried_deformed,
-    carried_linear,
-    half_plane_level,
-)
-from comparisons.models.forecast import expected_level
+from comparisons.models.analytic import carried_deformed, carried_linear
 from comparisons.models.level import Level, flowing_contact
-from comparisons.models.plan import make_plan
+from comparisons.models.model import Model
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -65,25 +58,23 @@ finer one of its model does. Seconds are of one level, on one core."""
 
 @dataclass(frozen=True)
 class Method:
-    """A way to solve the contact that `crosscheck cost` adds, on elements of some pitches: factors
-    on the scene's coarsest."""
+    """A model that `crosscheck cost` adds on levels of some numbers; one before the first is
+    coarser."""
 
     name: str
-    kind: str  # half_plane | finite_element
-    factors: tuple[float, ...]
-    fields: Mapping[str, object] | None = None  # of the scene's finite elements; None: an operator
-    carried: frozenset[str] = frozenset()  # what the operator has beside the half-plane
+    solver: str  # of a Model
+    numbers: tuple[int, ...]
+    fields: Mapping[str, object] = field(default_factory=dict)  # of the scene's finite elements
+    effects: frozenset[str] = frozenset()  # that an analytic one has beside the half-plane
 
-    def posed(self, problem: Problem) -> Problem:
-        return replace(problem, scene=problem.scene.unchecked(self.fields or {}))
+    @property
+    def kind(self) -> str:
+        return MODELS[self.solver == "finite elements"]
 
-    def seconds(self, problem: Problem, pitch: float) -> float:
-        """What a level is expected to take."""
-        if self.fields is None:
-            return 0.0
-        problem = self.posed(problem)
-        plan, patches = make_plan(problem, (self.kind,)), flowing_contact(problem)
-        return expected_level(self.kind, problem, plan, pitch, patches).seconds
+    @property
+    def model(self) -> Model:
+        key = f"cost-{'-'.join(self.name.split())}"
+        return Model(key, self.solver, self.effects, label=self.name)
 
 
 @dataclass(frozen=True)
@@ -95,63 +86,47 @@ class Reference:
 
 def methods_of(problem: Problem) -> list[Method]:
     """Those that apply beside what every run solves."""
-    scene, settings = problem.scene, problem.scene.finite_element
-    effects, own = contained(scene), LABELS["finite_element"]
+    scene, settings, own = problem.scene, problem.scene.finite_element, LABELS["finite_element"]
+    plane, analytic = LABELS["half_plane"], partial(Method, solver="analytic")
+    elements = partial(Method, solver="finite elements")
     methods = [
-        Method(LABELS["half_plane"], "half_plane", (2.0, 0.125, 0.0625)),
-        Method(own, "finite_element", (2.0,), {}),
+        analytic(plane, numbers=(0, 4, 5), effects=problem.half_plane_effects),
+        elements(own, numbers=(0,)),
     ]
     if settings.nonlinear:  # which P2 elements alone solve
-        methods.append(Method(f"{own}, linear", "finite_element", (1.0, 0.5), LINEAR))
+        methods.append(elements(f"{own}, linear", numbers=(1, 2), fields=LINEAR))
     else:
         coarse = {f"{own}, {p}": {"finite_element.element": p} for p in ("P1", "P3")}
-        methods += [Method(n, "finite_element", (2.0, 1.0, 0.5), f) for n, f in coarse.items()]
+        methods += [elements(n, numbers=(0, 1, 2), fields=f) for n, f in coarse.items()]
+    effects = contained(scene)
     linear, deformed = carried_linear(scene, effects), carried_deformed(problem, effects)
-    held = {"layered": linear, "deformed": deformed}
     if len(scene.load.friction) == 1 or not settings.coupled:
-        names = ((f"{LABELS['half_plane']}, {name}", of) for name, of in held.items() if of)
-        methods += [Method(n, "half_plane", (1.0, 0.5, 0.25), None, of) for n, of in names]
+        held = {f"{plane}, layered": linear, f"{plane}, deformed": deformed}
+        methods += [analytic(n, numbers=(1, 2, 3), effects=of) for n, of in held.items() if of]
     return methods
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
     """Make known what `crosscheck cost` asks for; other runs solve nothing for this."""
-    if solved.all_methods and not solved.runs:
-        for method, pitch, key in _asked(solved):
-            how = method, solved.problem, pitch, solved.window
-            seconds = method.seconds(solved.problem, pitch)
-            tasks.add(key, level_by, *how, seconds=seconds, urgency=LAST)
+    if not solved.runs:
+        _asked(solved, tasks)
 
 
-def _asked(solved: Solved) -> Iterator[tuple[Method, float, str]]:
-    """Methods, pitches [m] and keys of their tasks, those that fit the budget of time."""
-    left = solved.problem.time
-    for method in methods_of(solved.problem):
-        if method.kind not in solved.plan.models:
-            continue
-        for factor in method.factors:
-            pitch = factor * solved.problem.pitches[0]
-            left -= method.seconds(solved.problem, pitch)
+def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
+    """Methods, numbers of levels and keys of their tasks, those that fit the budget of time; none
+    but for `crosscheck cost`."""
+    if not solved.all_methods:
+        return []
+    problem, window, left, asked = solved.problem, solved.window, solved.problem.time, []
+    patches = flowing_contact(problem)
+    for method in methods_of(problem):
+        posed = replace(problem, scene=problem.scene.unchecked(method.fields))
+        for number in method.numbers if method.kind in solved.plan.models else ():
+            left -= method.model.cost(posed, number, window, patches).seconds
             if left > 0.0:
-                yield method, pitch, f"cost-{'-'.join(method.name.split())}-{factor:g}"
-
-
-def level_by(
-    here: Here, method: Method, problem: Problem, pitch: float, window: Window | None
-) -> dict[float, Level]:
-    """A level by a method, by friction coefficient, without its fields."""
-    stages = Stages(lambda stage: here.callback(f"{stage}, {method.name}"))
-    if method.carried:
-        return analytic_level(problem, method.carried, problem.grid(pitch), window, stages)
-    if method.fields is None:
-        return half_plane_level(problem, pitch, window, stages, fields=False)
-    from comparisons.models.finite_element.level import finite_element_level
-    from comparisons.models.finite_element.mesh import Refinement
-
-    posed = method.posed(problem)
-    plan = make_plan(posed, (method.kind,))
-    levels = finite_element_level(posed, plan, Refinement(pitch), window, stages, fields=False)
-    return {friction: replace(level, mesh=None) for friction, level in levels.items()}
+                how = tasks, posed, number, window, patches, LAST
+                asked.append((method, number, method.model.announce(*how)))
+    return asked
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
@@ -161,7 +136,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             same = {case.friction: case.runs[name].levels[number] for case in solved.cases}
             levels.append((LABELS[name], name, same))
     said = []
-    for method, pitch, key in _asked(solved) if solved.all_methods else ():
+    for method, number, key in _asked(solved, tasks):
         try:
             by_friction = tasks.result(key)
             converged = all(level.converged for level in by_friction.values())
@@ -169,7 +144,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         except Exception as error:  # costs its row alone
             why = one_line(str(error) if isinstance(error, EXPECTED) else defect(error))
         if why:
-            left = f"{method.name} at {with_unit(pitch, 'm', 3)}: {why}"
+            pitch = with_unit(solved.problem.pitch_of(number), "m", 3)
+            left = f"{method.name} at {pitch}: {why}"
             said.append(Statement("left out", left))
         else:
             levels.append((method.name, method.kind, by_friction))

@@ -11,8 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from comparisons.common.progress import Stages
-from comparisons.common.tasks import LAST, Tasks, called
+from comparisons.common.tasks import LAST, Tasks
 from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
@@ -21,14 +20,9 @@ from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
-from comparisons.models.analytic import (
-    CAP,
-    analytic_level,
-    carried_deformed,
-    carried_linear,
-    why_no_stresses,
-)
+from comparisons.models.analytic import CAP, carried_deformed, carried_linear, why_no_stresses
 from comparisons.models.level import ModelRun
+from comparisons.models.model import Model
 from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.smooth import closed_form
 from comparisons.models.window import Window
@@ -216,29 +210,20 @@ def _judged(
 
 
 def announce_operators(
-    problem: Problem,
-    held: frozenset[str],
-    pitches: Iterable[float],
-    window: Window | None,
-    tasks: Tasks,
+    solved: Solved, held: frozenset[str], levels: int, tasks: Tasks
 ) -> list[str]:
-    """Add the half-plane with what an operator carries to the tasks, on pressure elements of each
-    pitch [m]: their keys."""
-    keys = []
-    for number, pitch in enumerate(pitches, start=1):
-        keys.append(f"operators-{'+'.join(sorted(held))}-{number}")
-        how = problem, held, problem.grid(pitch), window, Stages()
-        tasks.add(keys[-1], called, analytic_level, *how, urgency=LAST)
-    return keys
+    """The keys of the tasks that solve the half-plane with some of the effects."""
+    model = Model(f"{OPERATORS}-{'+'.join(sorted(held))}", "analytic", held, label=words_of(held))
+    where = [(solved.problem, number, solved.window) for number in range(1, levels + 1)]
+    return [model.announce(tasks, *one, urgency=LAST) for one in where]
 
 
 def operator_runs(
     solved: Solved, held: frozenset[str], tasks: Tasks
 ) -> dict[float, ModelRun] | None:
-    """The half-plane with what an operator carries, by friction coefficient, on the pressure
-    elements of the finite elements; None where it has no solution."""
-    pitches = [level.grid.pitch for level in solved.runs[OTHER].levels]
-    keys = announce_operators(solved.problem, held, pitches, solved.window, tasks)
+    """The half-plane with some of the effects, by friction coefficient, on the pressure elements of
+    the finite elements; None where it has no solution."""
+    keys = announce_operators(solved, held, len(solved.runs[OTHER].levels), tasks)
     try:
         levels = list(map(tasks.result, keys))
     except ContactError:  # the cap takes a contact that the pressures' extent does not hold

@@ -33,8 +33,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     whole = selected_effects(solved, moved).whole
     held = carried_deformed(solved.problem, whole)
     if held and "plastic_flow" not in whole:
-        where = solved.problem.pitches, solved.window
-        announce_operators(solved.problem, held, *where, tasks)
+        announce_operators(solved, held, len(solved.problem.pitches), tasks)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:

@@ -224,7 +224,7 @@ def selected_effects(
     problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
     flow = flow_assessment(solved)
     # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
-    if not why_not(FLOW, problem) and time_with_flow(problem, solved.plan, patches) > problem.time:
+    if not why_not(FLOW, problem) and time_with_flow(problem, patches) > problem.time:
         more = with_unit(flow_seconds(problem, patches), "s", 2)
         no_time = f"it takes {more} more (budget.time)"
     mean = mean_pressure(pressure)

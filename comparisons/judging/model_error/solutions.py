@@ -3,15 +3,12 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
-from comparisons.common.progress import Stages
-from comparisons.common.tasks import LATER, Here, Tasks
-from comparisons.figures.quantity import MODELS
+from comparisons.common.tasks import LATER, Tasks
 from comparisons.judging.effects.catalogue import EFFECTS, NONLINEAR, contained, is_taken_apart
 from comparisons.judging.effects.variants import ModelVariant, problem_with
 from comparisons.judging.model_error.contributions import NotComputedError
@@ -20,16 +17,16 @@ from comparisons.judging.model_error.quantities_of_interest import (
     quantities_of,
 )
 from comparisons.judging.study import Solved
-from comparisons.models.forecast import expected_level
-from comparisons.models.level import ExpectedCost, Level, ModelRun
-from comparisons.models.plan import Plan, make_plan
-from comparisons.models.problem import COUPLED, Problem
-from comparisons.models.window import Window
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.model import Model
+from comparisons.models.problem import COUPLED
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
 LEAST_LEVELS = 2  # of the effects
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
+# What a task raises where a variant has no solution.
+NO_SOLUTION = ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError
 
 
 @dataclass
@@ -81,8 +78,8 @@ class SolvedVariants:
         for variant, key in self.announce(asked, number):
             try:
                 self._keep(variant, number, self.tasks.result(key))
-            except NotComputedError as error:
-                self.failed[variant, number] = error
+            except NO_SOLUTION as error:
+                self.failed[variant, number] = NotComputedError(variant, str(error))
 
     def announce(
         self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
@@ -90,7 +87,13 @@ class SolvedVariants:
         """Make those that are new on a level known to the tasks; each with its task's key."""
         new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
         new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
-        return [(variant, self._add(variant, number, urgency)) for variant in new]
+        keys = []
+        for variant in new:
+            self.expected.setdefault((variant, number), self.forecast(variant, number))
+            problem, window = problem_with(self.problem, variant), self.scene.window
+            how = self.tasks, problem, number, window, self._patches, urgency
+            keys.append((variant, self._model(variant, number).announce(*how)))
+        return keys
 
     def is_open(self, variant: ModelVariant, number: int) -> bool:
         """Whether a level of a variant is yet to be solved."""
@@ -107,7 +110,8 @@ class SolvedVariants:
 
     def forecast(self, variant: ModelVariant, number: int) -> float:
         """Seconds that a level of a variant takes by the laws of cost."""
-        return self._posed(variant, number)[-1].seconds
+        problem = problem_with(self.problem, variant)
+        return self._model(variant, number).cost(problem, number, patches=self._patches).seconds
 
     def keep(self, wholes: Iterable[ModelVariant]) -> None:
         """Take these for `wholes`, from their first level on."""
@@ -128,28 +132,29 @@ class SolvedVariants:
         changed = variant.quadratic or variant.laws or variant.times > 1 or variant.half_block
         return shaped and not changed and variant.effects == effects
 
-    def _add(self, variant: ModelVariant, number: int, urgency: int) -> str:
-        whole = variant in self.wholes
-        key = f"{'whole' if whole else 'part'}-{variant.name}-{number}"
-        problem, plan, pitch, cost = self._posed(variant, number)
-        self.expected.setdefault((variant, number), cost.seconds)
-        shown = whole and number >= LEAST_LEVELS  # it may be the finest
-        work = partial(_solved, problem=problem, plan=plan, window=self.scene.window, fields=shown)
-        size = {"seconds": cost.seconds, "memory": cost.memory}
-        self.tasks.add(key, work, variant, number, **size, urgency=urgency, shares=pitch)
-        return key
-
-    def _posed(
-        self, variant: ModelVariant, number: int
-    ) -> tuple[Problem, Plan, float, ExpectedCost]:
-        """Problem, plan, pitch [m] and cost of a variant on a level."""
-        problem = problem_with(self.problem, variant)
-        plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
-        cost = expected_level("finite_element", problem, plan, pitch, self._patches)
-        return problem, plan, pitch, cost
+    def _model(self, variant: ModelVariant, number: int) -> Model:
+        """What solves the problem of a variant on a level."""
+        whole, name = variant in self.wholes, variant.name
+        words = ", ".join(EFFECTS[one].label for one in sorted(variant.effects)) or "no effect"
+        return Model(
+            f"{'whole' if whole else 'part'}-{name}",
+            "finite elements",
+            half_block=variant.half_block,
+            times=variant.times,
+            fields=whole and number >= LEAST_LEVELS,  # it may be the finest
+            label=f"with {words}",
+        )
 
     def _keep(self, variant: ModelVariant, number: int, levels: Mapping[float, Level]) -> None:
-        """Note the solution of a variant on a level, by friction."""
+        """Note the solution of a variant on a level, by friction; raises ContactError where it is
+        none."""
+        problem, clear = problem_with(self.problem, variant), CLEAR * self.problem.pitch_of(number)
+        for level in levels.values():
+            if not level.converged:
+                raise ContactError(f"the contact did not converge on level {number}")
+            start, stop = level.patches[0, 0], level.patches[-1, 1]
+            if start < problem.extent[0] + clear or stop > problem.extent[1] - clear:
+                raise ContactError("the contact reaches the end of the pressures")
         level = next(iter(levels.values()))
         seconds = sum(level.seconds.values())
         before, memory = self.took.get(variant, (0.0, 0))
@@ -157,42 +162,5 @@ class SolvedVariants:
         if variant in self.wholes:
             self.wholes[variant] = dict(levels)
         self.expected[variant, number] = level.expected_seconds
-        problem = problem_with(self.problem, variant)
         for friction, level in levels.items():
             self.solved[variant, number, friction] = quantities_of(level, problem)
-
-
-def _solved(
-    here: Here,
-    variant: ModelVariant,
-    number: int,
-    problem: Problem,
-    plan: Plan,
-    window: Window | None,
-    fields: bool,
-) -> dict[float, Level]:
-    """A variant's `problem` on a level, with its `fields` on window and mesh where asked; raises
-    NotComputedError."""
-    from comparisons.models.finite_element.bodies import BodyCache
-    from comparisons.models.finite_element.level import finite_element_level
-    from comparisons.models.finite_element.mesh import Refinement
-    from fem.nonlinear.press_plastic import TRAVEL
-
-    words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
-    words = f"with {words}, level {number}"
-    pitch = problem.pitches[0] / 2.0 ** (number - 1)
-    body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    refinement = Refinement(pitch, variant.half_block, variant.times * TRAVEL)
-    stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
-    how = refinement, window, stages, body_cache
-    try:
-        levels = finite_element_level(problem, plan, *how, fields=fields)
-    except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
-        raise NotComputedError(variant, str(error)) from error
-    low, high = problem.extent[0] + CLEAR * pitch, problem.extent[1] - CLEAR * pitch
-    for level in levels.values():
-        if not level.converged:
-            raise NotComputedError(variant, f"the contact did not converge on level {number}")
-        if level.patches[0, 0] < low or level.patches[-1, 1] > high:
-            raise NotComputedError(variant, "the contact reaches the end of the pressures")
-    return levels

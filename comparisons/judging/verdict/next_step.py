@@ -179,7 +179,7 @@ def _of_effect(run: Run, name: str) -> Iterator[Offer]:
     seconds = selection.time if name == "finite_strain" else 0.0
     if name == FLOW and "budget.time" in why:
         patches = run.runs["half_plane"].levels[0].patches
-        seconds = time_with_flow(run.problem, run.plan, patches)
+        seconds = time_with_flow(run.problem, patches)
     if seconds:
         text = f"budget.time={rounded_up(seconds):g}"
         yield Offer("budget.time computes it", (text,), computes=name)
@@ -275,7 +275,7 @@ def _unknown_law(run: Run) -> str:
 def _finer_levels(run: Run) -> Iterator[Offer]:
     """The time and the memory of one more level of each model."""
     budget = run.problem.scene.budget
-    seconds, memory = with_one_more(run.problem, run.plan, run.window, run.runs)
+    seconds, memory = with_one_more(run.problem, run.window, run.runs)
     wanted = {"memory": rounded_up(memory)} if memory > budget.memory else {}
     if seconds > budget.time or not wanted:
         wanted["time"] = max(2.0 * budget.time, rounded_up(seconds))

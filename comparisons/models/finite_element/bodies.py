@@ -19,7 +19,6 @@ from comparisons.models.finite_element.roller import (
     roller_mesh,
     roller_spec,
 )
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.body.elasticity import Coating, ElasticBody, elastic_body
 from fem.body.support import Sides, Support
@@ -69,7 +68,6 @@ class BodyCache:
 
 def bodies_of(
     problem: Problem,
-    plan: Plan,
     refinement: Refinement,
     patches: np.ndarray,
     stages: Stages,
@@ -111,7 +109,7 @@ def bodies_of(
     rough = body(shaped, shape, scene.body.material, support, coating)
     if scene.roller.rigid:
         return BodyPair(rough, None, 0.0)
-    if plan.shared_factor:
+    if problem.shares_factor:
         share = scene.body.youngs_modulus / scene.roller.youngs_modulus
         return BodyPair(rough, None, share)
     wanted = roller_spec(problem, spec)

@@ -4,7 +4,6 @@ import numpy as np
 
 from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
 from comparisons.models.level import ExpectedCost
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.solver.mumps import factorisation_seconds
 
@@ -24,11 +23,9 @@ FINITE_FLOW = 2.0  # times as long an unknown at finite strains, on a rough surf
 FEWEST_INCREMENTS = 4.0  # of plastic flow, however little it spreads
 
 
-def expected(
-    problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray
-) -> ExpectedCost:
+def expected(problem: Problem, refinement: Refinement, patches: np.ndarray) -> ExpectedCost:
     """For contact predicted on `patches` (k, 2) [m]."""
-    unknowns = expected_unknowns(problem, plan, refinement, patches)
+    unknowns = expected_unknowns(problem, refinement, patches)
     factorisation = factorisation_seconds(unknowns)
     others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS
     seconds, memory = START_SECONDS + factorisation + others * unknowns, BYTES_PER_UNKNOWN

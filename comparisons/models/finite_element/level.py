@@ -34,7 +34,6 @@ from comparisons.models.finite_element.nonlinear import (
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
 from comparisons.models.operators import LAYERS, operator_of, solve_on
-from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import settled
 from comparisons.models.problem import COUPLED, Levels, Problem
 from comparisons.models.window import Window
@@ -50,7 +49,6 @@ MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 def finite_element_level(
     problem: Problem,
-    plan: Plan,
     refinement: Refinement,
     window: Window | None,
     stages: Stages,
@@ -73,7 +71,7 @@ def finite_element_level(
     def solve(problem: Problem) -> dict[float, Level]:
         """Under friction coefficients that share a contact."""
         frictions = problem.scene.load.friction
-        solving = _LevelSolution(problem, plan, refinement, stages, approach)
+        solving = _LevelSolution(problem, refinement, stages, approach)
         with stages.stage("assembly", "finite elements: loading"):
             start_worker()
             load_dolfinx()
@@ -83,7 +81,7 @@ def finite_element_level(
         ranges = contact_patches(grid.x, guess.pressure, guess.gap)
         flows = problem.scene.finite_element.plastic
         patches = flowing_contact(problem) if flows else ranges
-        cost = expected(problem, plan, refinement, patches)
+        cost = expected(problem, refinement, patches)
         refuse_too_large(problem, cost, "finite elements", refinement.pitch)
         meshed = solving.meshed_contact(ranges, guess.pressure, body_cache)
         pressed = solving.pressed(meshed)
@@ -125,7 +123,6 @@ class _LevelSolution:
     """The steps of one level."""
 
     problem: Problem
-    plan: Plan
     refinement: Refinement
     stages: Stages
     approach: float | None  # [m] from first touch, in place of the load
@@ -173,7 +170,7 @@ class _LevelSolution:
         # what finite deformation starts from need not be closer than it changes
         tolerance = START_TOLERANCE if self.is_finite else KKT_TOLERANCE
         for _ in range(MOST_MESHES):
-            bodies = bodies_of(problem, self.plan, self.refinement, ranges, self.stages, body_cache)
+            bodies = bodies_of(problem, self.refinement, ranges, self.stages, body_cache)
             refined = bodies.rough.mesh.spec.intervals
             with self.stages.stage("contact", "finite elements: contact"):
                 operator = mutual_compliance(problem, bodies, grid)
@@ -243,9 +240,8 @@ def problem_of_approach(
 
     def pressed(problem: Problem) -> tuple[float, np.ndarray]:
         callback("finite elements: load of the prescribed approach")
-        plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[-1])
-        how = refinement, None, Stages(), body_cache, approach
-        level, *_ = finite_element_level(problem, plan, *how).values()
+        how = Refinement(problem.pitches[-1]), None, Stages(), body_cache, approach
+        level, *_ = finite_element_level(problem, *how).values()
         return level.solution.load, level.patches
 
     return settled(scene, surface or surface_of(scene), pressed, levels=levels)

@@ -7,7 +7,6 @@ import numpy as np
 
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.roller import roller_spec
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import field_ends
 from fem.nonlinear.press_plastic import TRAVEL
@@ -85,13 +84,11 @@ def rough_key(problem: Problem) -> Hashable:
     return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
 
 
-def expected_unknowns(
-    problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray
-) -> int:
+def expected_unknowns(problem: Problem, refinement: Refinement, patches: np.ndarray) -> int:
     """Displacements of a level, of all its bodies, before anything is meshed."""
     spec = block_spec(problem, refinement, patches)
     unknowns = estimate_unknowns(spec)
-    if not problem.scene.roller.rigid and not plan.shared_factor:
+    if not problem.scene.roller.rigid and not problem.shares_factor:
         unknowns += estimate_unknowns(roller_spec(problem, spec))
     # of a triangle's nodes two thirds are midpoints of edges; cubic elements have 9/4 as many
     return round(unknowns * {1: 0.25, 2: 1.0, 3: 2.25}[problem.scene.finite_element.degree])

@@ -15,13 +15,12 @@ from analytic.operators.half_plane import ComplianceOperator
 from comparisons.common.progress import Stages
 from comparisons.models.level import ModelRun
 from comparisons.models.operators import operator_of
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
 
 
 def operators_of(
-    problem: Problem, plan: Plan, runs: Mapping[str, ModelRun]
+    problem: Problem, runs: Mapping[str, ModelRun]
 ) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
     """Pressure elements and compliance by model."""
     grid = list(runs.values())[-1].finest.grid
@@ -34,7 +33,7 @@ def operators_of(
 
         level = runs["finite_element"].levels[0]
         how = Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
-        bodies = bodies_of(problem, plan, *how)  # made again
+        bodies = bodies_of(problem, *how)  # made again
         operators["finite_element"] = level.grid, mutual_compliance(problem, bodies, level.grid)
     return operators
 

@@ -57,7 +57,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     problem, answers = solved.problem, _read(solved, tasks)
-    operators = operators_of(problem, solved.plan, solved.runs)
+    operators = operators_of(problem, solved.runs)
     scattered = Figures(before[SCATTER].figures if SCATTER in before else ())
     figures, series = [], []
     for name, source in problem.scene.answers.items():

@@ -17,7 +17,6 @@ from comparisons.models.finite_element.contact import MutualCompliance, mutual_c
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.operators import is_layered, operator_of
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.friction.half_planes import (
@@ -42,7 +41,6 @@ Stressed = Callable[[int], tuple[NodalStress, SurfaceLoad]]
 
 def finite_element_slip(
     problem: Problem,
-    plan: Plan,
     window: Window | None,
     level: Level,
     increments: int,
@@ -52,7 +50,7 @@ def finite_element_slip(
     of its size."""
     grid = problem.grid(level.grid.pitch)
     refinement = Refinement(grid.pitch, half_block=half_block)
-    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), BodyCache())
+    bodies = bodies_of(problem, refinement, level.patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
     slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
     if problem.scene.body.thickness is not None:

@@ -82,7 +82,7 @@ def solvers(solved: Solved) -> dict[str, Solve]:
     if "finite_element" in solved.runs and not problem.scene.finite_element.plastic:
         from comparisons.studies.friction.finite_elements import finite_element_slip
 
-        solvers["finite_element"] = partial(finite_element_slip, problem, solved.plan, window)
+        solvers["finite_element"] = partial(finite_element_slip, problem, window)
     return solvers
 
 

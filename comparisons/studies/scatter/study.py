@@ -21,7 +21,6 @@ from analytic.contact.problem import ContactError
 from analytic.surface.stylus import opened, with_noise
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.numbers import percent, with_unit
-from comparisons.common.progress import Stages, no_progress
 from comparisons.common.tasks import LATER, Here, Tasks
 from comparisons.drawing.blocks import Block, Note
 from comparisons.drawing.tables import figure_table
@@ -31,7 +30,7 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import SCATTER as NAME
 from comparisons.judging.study import Run, Solved, Study
-from comparisons.models.analytic import expected_of, half_plane_level
+from comparisons.models.model import scene_model
 from comparisons.models.posing import load_on_layer, problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
@@ -67,15 +66,15 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     if solved.runs:
         return
     problem = solved.problem
-    x = problem.grid(problem.pitches[0]).x
-    cost, by = expected_of(len(x)).seconds * TOGETHER, _tasks(solved, tasks)
+    x, by = problem.grid(problem.pitches[0]).x, _tasks(solved, tasks)
+    cost = scene_model("half_plane", problem).cost(problem, 1, solved.window)
     scale = None
     if problem.scene.load.kind == "approach":
         on_layer = load_on_layer(problem.scene, problem.surface)
         scale = problem.hertz.load_per_length / on_layer
     for key, points in _batches(_points(problem)).items():
         sampled_scene = problem.scene, problem.surface, points, x, scale
-        by.add(key, _solve_batch, *sampled_scene, seconds=cost, urgency=LATER)
+        by.add(key, _solve_batch, *sampled_scene, seconds=TOGETHER * cost.seconds, urgency=LATER)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
@@ -197,8 +196,7 @@ def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarra
     the pressure (n,) [Pa] at its nodes."""
     scene = problem.scene
     window = None if scene.stress is None else window_of(problem)
-    stages = Stages(no_progress)
-    levels = half_plane_level(problem, problem.pitches[0], window, stages, fields=False)
+    levels = scene_model("half_plane", problem).solve(Here(), problem, 1, window)
     figures = {friction: values_of(level, problem) for friction, level in levels.items()}
     return figures, levels[scene.load.friction[0]].solution.pressure
 

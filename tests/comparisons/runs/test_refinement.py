@@ -11,7 +11,7 @@ from comparisons.common.errors import SceneError
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import unsolved
-from comparisons.models.analytic import expected_with, half_plane_level
+from comparisons.models.analytic import analytic_level, expected_with
 from comparisons.models.finite_element import level
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
@@ -72,10 +72,11 @@ def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
     """Finite elements that are half-planes, but for the finest one."""
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}})
 
-    def solve(finest, problem, plan, refinement, window, stages, *rest):
+    def solve(finest, problem, refinement, window, stages, *rest, **others):
         if refinement.pitch <= 1.01 * made.pitches[finest - 1]:
             raise FemError("it did not converge")
-        return half_plane_level(problem, refinement.pitch, window, stages)
+        grid = problem.grid(refinement.pitch)
+        return analytic_level(problem, frozenset(), grid, window, stages)
 
     def solved(finest):
         monkeypatch.setattr(level, "finite_element_level", partial(solve, finest))

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from comparisons.judging.study import unsolved
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
+from comparisons.models.problem import Problem
 from comparisons.output.record import read_result
 from comparisons.output.result_json import content_of, result_of
 from comparisons.runs.run import level_cache, planned, run, solve
@@ -141,8 +143,8 @@ class TestSmooth:
 
     def test_leaving_steps_out_changes_no_figure(self, smooth, tmp_path):
         """The roller on a factorisation of its own, though the body's would do."""
-        plan = replace(smooth.plan, shared_factor=False)
-        whole = solve(unsolved(smooth.problem, plan), tmp_path / "out")
+        with patch.object(Problem, "shares_factor", False):
+            whole = solve(unsolved(smooth.problem, smooth.plan), tmp_path / "out")
         assert whole.runs["finite_element"].finest.unknowns == 2 * (
             smooth.runs["finite_element"].finest.unknowns
         )
@@ -255,7 +257,7 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert again.stress.extremes == level.stress.extremes
     other = problem(changed(QUICK, load={"per_length": 3.56e6}))
     assert level_cache(tmp_path / "out", other, plan).load("level") is None
-    whole = replace(plan, shared_factor=False)
+    whole = replace(plan, domain_check=not plan.domain_check)
     assert level_cache(tmp_path / "out", posed, whole).load("level") is None
     path = tmp_path / ".out.unfinished" / "run" / "level.npz"
     path.write_bytes(path.read_bytes()[:1000])

@@ -16,7 +16,6 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import refuse_cut_off
 from comparisons.models.level import flowing_contact
-from comparisons.models.plan import make_plan
 from comparisons.output.page.pictures.stresses import plastic_strain_pictures
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
@@ -203,11 +202,10 @@ def test_a_turned_metal_flows_below_an_elastic_roller():
     there. Load and contact conditions hold far below what Newton's method may leave. What the level
     was expected to take is what a plan says of it."""
     posed = problem(TURNED)
-    plan = make_plan(posed, ("finite_element",))
     coarse = Refinement(posed.pitches[0], travel=4.0)
-    [level] = finite_element_level(posed, plan, coarse, None, Stages()).values()
+    [level] = finite_element_level(posed, coarse, None, Stages()).values()
     solution = level.solution
     assert solution.converged and solution.residuals.worst < 1e-11
-    cost = expected(posed, plan, coarse, flowing_contact(posed))
+    cost = expected(posed, coarse, flowing_contact(posed))
     assert (level.expected_seconds, level.expected_memory) == (cost.seconds, cost.memory)
     assert 2.5 * 280e6 < solution.pressure.max() < 3.7 * 280e6

@@ -17,7 +17,6 @@ from comparisons.judging.verdict.within import rounded_up, within_of
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.scenes.scene import Scene
@@ -111,14 +110,13 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
     from fem.contact.variational_inequality import solve_variational_inequality
 
     problem = problem_of(Scene.read("sinusoid"))
-    plan = make_plan(problem, MODELS)
     grid: HatGrid = problem.grid(problem.pitches[0])
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
     refinement = Refinement(grid.pitch)
     level = half_plane_at(problem, grid.pitch)
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
-    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    bodies = bodies_of(problem, refinement, patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
     one = solve_with_model(
         operator,

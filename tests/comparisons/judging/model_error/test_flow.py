@@ -110,13 +110,13 @@ def test_without_time_for_finite_strain_it_says_how_much(short):
 
 def test_without_time_it_says_how_long_flow_takes(beside):
     short = run_of(SCENE, budget={"time": 2.0})
-    problem, plan = short.problem, short.plan
+    problem = short.problem
     assert "(budget.time)" in short.data("model_error").selection.impossible[FLOW]
     said = headline(short)
     assert said.kind == "fails" and "does not apply" in said.within.sentence
     patches = short.runs["half_plane"].levels[0].patches
     time = asked_in_python(said.paste[0], problem.scene).budget.time
-    assert 1.0 <= time / time_with_flow(problem, plan, patches) < 2.0
+    assert 1.0 <= time / time_with_flow(problem, patches) < 2.0
 
 
 def test_below_first_flow_nothing_changes():

@@ -13,7 +13,6 @@ from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
-from comparisons.judging.model_error import solutions as solve
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     contributions_of,
@@ -21,8 +20,10 @@ from comparisons.judging.model_error.contributions import (
 )
 from comparisons.judging.model_error.solutions import SolvedVariants
 from comparisons.judging.study import unsolved
+from comparisons.models.model import Model
 from comparisons.models.plan import make_plan
 from comparisons.runs.refinement import refined
+from meshes.block import MeshError
 
 RIGID = {"rigid": True}
 SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
@@ -70,7 +71,7 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
     disc, circle = (ModelVariant(frozenset({name})) for name in ("finite_roller", "exact_circle"))
     bodies = made(Tasks())
-    with patch.object(solve, "_solved", side_effect=NotComputedError(disc, "no\nmesh")):
+    with patch.object(Model, "solve", side_effect=MeshError("no\nmesh")):
         bodies.prepare([disc], 1)
     bodies.prepare([disc, circle], 1)  # is not tried again
     assert bodies.solution(circle, 1, 0.0)

@@ -9,7 +9,6 @@ from comparisons.models.finite_element.mesh import (
     expected_unknowns,
     roller_spec,
 )
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Scene
@@ -21,11 +20,10 @@ def test_unknowns_are_those_of_the_meshes(name):
     """Of the first level, as if contact were all over the extent; with quadratic elements."""
     scene = Scene.read(name)
     problem = problem_of(scene.unchecked({"finite_element.element": "P2"}))
-    plan = make_plan(problem, ("finite_element",))
     refinement, patches = Refinement(problem.pitches[0]), np.array([problem.extent])
     specs = [block_spec(problem, refinement, patches)]
-    if not problem.scene.roller.rigid and not plan.shared_factor:
+    if not problem.scene.roller.rigid and not problem.shares_factor:
         specs.append(roller_spec(problem, specs[0]))
     made = sum(2 * len(build_block(spec).points) for spec in specs)
-    expected = expected_unknowns(problem, plan, refinement, patches)
+    expected = expected_unknowns(problem, refinement, patches)
     assert expected == pytest.approx(made, rel=0.2)

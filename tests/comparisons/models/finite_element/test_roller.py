@@ -91,7 +91,7 @@ def test_the_check_of_the_far_boundary_leaves_a_disc_as_it_is_held(support):
     plan, body_cache = make_plan(scene, ("finite_element",)), BodyCache()
     pitch, near = scene.hertz.half_width / 5.0, np.array([[-1.0, 1.0]]) * scene.hertz.half_width
     pairs = [
-        bodies_of(scene, plan, Refinement(pitch, half_block), near, Stages(), body_cache)
+        bodies_of(scene, Refinement(pitch, half_block), near, Stages(), body_cache)
         for half_block in (False, True)
     ]
     assert plan.domain_check and pairs[0].rough.support != pairs[1].rough.support

@@ -9,7 +9,6 @@ from scenes import finite_elements, problem
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from meshes.block import BlockMesh, real_points
 from meshes.build import build_block
@@ -97,7 +96,7 @@ def test_friction_coefficients_and_rollers_share_rough_bodies_and_profiles_do_no
     third = replace(one, surface=replace(one.surface, profile=higher))
     held, patches, rough = BodyCache(), np.array([one.extent]), []
     for posed in (one, other, third):
-        plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
-        rough.append(bodies_of(posed, plan, refinement, patches, Stages(), held).rough)
+        refinement = Refinement(posed.pitches[0])
+        rough.append(bodies_of(posed, refinement, patches, Stages(), held).rough)
     assert rough[1] is rough[0] and rough[2] is not rough[0]
     assert rough[2].points[:, 1].min() < 1.4 * rough[0].points[:, 1].min() < 0.0

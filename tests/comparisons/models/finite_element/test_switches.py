@@ -11,7 +11,6 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
@@ -112,29 +111,28 @@ def test_coupled_both_models_move_alike(tables):
 
 def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisation():
     problem = problem_with(RIGID, {}, load={"friction": [0.0, 0.1, 0.2]}, stress={"points": [9, 5]})
-    plan = make_plan(problem, ("finite_element",))
     body_cache, refinement = BodyCache(), Refinement(problem.pitches[0])
     first, second = Stages(), Stages()
-    how = problem, plan, refinement, None
+    how = problem, refinement, None
     one, other = (finite_element_level(*how, stages, body_cache)[0.0] for stages in (first, second))
     assert "factorisation" in first.seconds and "factorisation" not in second.seconds
     assert np.array_equal(one.solution.pressure, other.solution.pressure)
     held = Refinement(problem.pitches[0], half_block=True)
     third = Stages()
-    finite_element_level(problem, plan, held, None, third, body_cache=body_cache)
+    finite_element_level(problem, held, None, third, body_cache=body_cache)
     assert "factorisation" in third.seconds  # another support, the same mesh
     assert third.seconds["mesh"] < 0.1 * first.seconds["mesh"]
 
 
 def test_a_roller_like_the_body_that_flows_shares_its_factor():
     problem = problem_of(Scene.read("yielding"))
-    plan, half = make_plan(problem, ("finite_element",)), problem.hertz.half_width
+    half = problem.hertz.half_width
     patches, refinement = np.array([[-half, half]]), Refinement(problem.pitches[0])
-    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    bodies = bodies_of(problem, refinement, patches, Stages(), BodyCache())
     assert bodies.roller is bodies.rough
     disc = problem.scene.unchecked({"finite_element.roller_body": "disc"})
     problem = replace(problem, scene=disc)
-    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    bodies = bodies_of(problem, refinement, patches, Stages(), BodyCache())
     assert bodies.roller is not bodies.rough
 
 

@@ -1,0 +1,122 @@
+"""A model: assumptions, and a way to solve a problem under them on one level, with its cost.
+
+Analytic models are the half-plane and the effects that they have beside its assumptions; finite
+elements have the effects that the problem's scene gives them. A level is solved here alone, or as a
+task of a run, which keeps it by its key."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import NEEDED, Here, Tasks
+from comparisons.models.analytic import analytic_level, expected_with
+from comparisons.models.level import ExpectedCost, Level
+from comparisons.models.problem import COUPLED, Problem
+from comparisons.models.window import Window
+
+if TYPE_CHECKING:
+    from comparisons.models.finite_element.mesh import Refinement
+
+
+@dataclass(frozen=True)
+class Model:
+    """Its levels have numbers from 1, coarse to fine, and pitches by `Problem.pitch_of`."""
+
+    name: str  # of its levels among the tasks of a run; of the scene's own, the source of figures
+    solver: Literal["analytic", "finite elements"]
+    effects: frozenset[str] = frozenset()  # that an analytic model has beside the half-plane
+    half_block: bool = False  # the far boundary of an unbounded body is at half the distance
+    times: int = 1  # as long increments of plastic flow
+    fields: bool = False  # give all stresses on the window and the mesh, not the largest alone
+    label: str = ""  # of its stages
+
+    def cost(
+        self,
+        problem: Problem,
+        number: int,
+        window: Window | None = None,
+        patches: np.ndarray | None = None,
+    ) -> ExpectedCost:
+        """What a level will take by the laws of cost, before anything is meshed or solved: of
+        finite elements in contact on `patches` (k, 2) [m], by default all over the stretch of
+        pressures, which it never exceeds; of an analytic model with the stresses on a window."""
+        pitch = problem.pitch_of(number)
+        if self.solver == "analytic":
+            cost, moved = expected_with(problem, pitch, window), COUPLED in self.effects
+        else:
+            from comparisons.models.finite_element.cost import expected
+
+            there = np.array([problem.extent]) if patches is None else patches
+            cost = expected(problem, self._refinement(pitch), there)
+            moved = problem.scene.finite_element.coupled
+        contacts = len(problem.scene.load.friction) if moved else 1
+        return replace(cost, seconds=contacts * cost.seconds)
+
+    def solve(
+        self, here: Here, problem: Problem, number: int, window: Window | None
+    ) -> dict[float, Level]:
+        """A level by friction coefficient, with stresses in a window. Imports what it needs alone;
+        raises ContactError, MeshError, FemError and SceneError."""
+        words = ", ".join(filter(None, (self.label, *self._checks.values(), f"level {number}")))
+        stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
+        pitch = problem.pitch_of(number)
+        if self.solver == "analytic":
+            how = problem.grid(pitch), window, stages, self.fields
+            return analytic_level(problem, self.effects, *how)
+        from comparisons.models.finite_element.bodies import BodyCache
+        from comparisons.models.finite_element.level import finite_element_level
+
+        # bodies of one pitch are held: those of other levels are dropped
+        how = self._refinement(pitch), window, stages, here.held("bodies", pitch, BodyCache)
+        return finite_element_level(problem, *how, fields=self.fields)
+
+    def announce(
+        self,
+        tasks: Tasks,
+        problem: Problem,
+        number: int,
+        window: Window | None,
+        patches: np.ndarray | None = None,
+        urgency: int = NEEDED,
+        short: float = 0.0,
+    ) -> str:
+        """Make a level known to the tasks, which give it by the key that is returned. One that is
+        expected to take less than `short` [s] is solved at once, in this process."""
+        key = "-".join((self.name, *self._checks, str(number)))
+        cost = self.cost(problem, number, window, patches)
+        tasks.add(
+            key,
+            self.solve,
+            *(problem, number, window),
+            seconds=cost.seconds,
+            memory=cost.memory,
+            urgency=urgency,
+            shares=None if self.solver == "analytic" else problem.pitch_of(number),
+            by_itself=cost.seconds < short,
+        )
+        return key
+
+    @property
+    def _checks(self) -> dict[str, str]:
+        """What its levels check, in words by parts of their keys."""
+        checks = {}
+        if self.half_block:
+            checks["far_boundary_check"] = "far boundary at half the distance"
+        if self.times > 1:
+            checks[f"increments_{self.times}"] = f"increments of flow {self.times} times as long"
+        return checks
+
+    def _refinement(self, pitch: float) -> "Refinement":
+        from comparisons.models.finite_element.mesh import Refinement
+        from fem.nonlinear.press_plastic import TRAVEL
+
+        return Refinement(pitch, self.half_block, self.times * TRAVEL)
+
+
+def scene_model(name: str, problem: Problem, fields: bool = False) -> Model:
+    """One of the scene's own MODELS."""
+    if name == "half_plane":
+        return Model(name, "analytic", problem.half_plane_effects, fields=fields)
+    return Model(name, "finite elements", fields=fields)
