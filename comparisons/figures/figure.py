@@ -138,6 +138,11 @@ class Figure:
         return math.hypot(*self.unknown.values())
 
     @property
+    def largest_unknown(self) -> str:
+        """What the largest of the estimates is of; empty without any."""
+        return max(self.unknown, key=self.unknown.get, default="")
+
+    @property
     def total(self) -> float:
         """Uncertainty and what is not modelled."""
         return self.numerical + self.not_modelled

@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, write_whole
-from comparisons.common.numbers import percent, percent_as_written, with_unit
-from comparisons.figures.figure import Figure, Verdict
+from comparisons.drawing.tables import line_of
+from comparisons.figures.figure import Verdict
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 from comparisons.studies import meaning
@@ -79,18 +79,12 @@ def run_cases_of(run: Run) -> list[JunitCase]:
     cases = [JunitCase(f"{scene}.solvers", "converged", sentence)]
     for figure in run.judged:
         table = f"answers.{figure.source}" if figure.study == "answers" else figure.study
-        text, name = _said(figure), f"{figure.quantity}, friction {figure.friction:g}"
+        name, of = f"{figure.quantity}, friction {figure.friction:g}", meaning(figure)
+        # of a difference with what is not modelled of it
+        text = figure.words(figure.total)
+        if figure.against is None:
+            text = line_of([figure], {figure.quantity: of})
         cases.append(JunitCase(f"{scene}.{table}", name, text, RESULTS[figure.verdict], text))
     if run.converged:
         return cases
     return [replace(case, result="error", message=sentence) for case in cases]
-
-
-def _said(figure: Figure) -> str:
-    """Verdict, size, uncertainty with what is not modelled, and what is allowed."""
-    if figure.against is not None:
-        tolerance = percent_as_written(figure.tolerance)
-        return f"{figure.verdict}: {figure.sized(figure.total)}, tolerance {tolerance}"
-    sizes, unit = (figure.value, figure.bounds[1] * figure.scale), meaning(figure).unit
-    value, most = (with_unit(size, unit) for size in sizes)
-    return f"{figure.verdict}: {value} ± {percent(figure.total)}, at most {most}"

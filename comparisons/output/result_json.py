@@ -121,21 +121,17 @@ def read_content(content: Mapping) -> Result:
     for name, kind in kinds.items():
         if not isinstance(content[name], kind):
             raise TypeError(f"{name}: is {content[name]!r}")
-    if not content["figures"]:
-        raise ValueError("figures: has none")
-    figures = Figures(map(_read_figure, content["figures"]))
-    series = [(entry["study"], _read_series(entry)) for entry in content["series"]]
-    statements = [(entry["study"], _read_statement(entry)) for entry in content["statements"]]
-    items = [((figure.study, figure) for figure in figures), series, statements]
+    readers = {"figures": _read_figure, "series": _read_series, "statements": _read_statement}
     studies: dict[str, tuple[list, list, list]] = {}
-    for place, named in enumerate(items):
-        for study, item in named:
-            studies.setdefault(study, ([], [], []))[place].append(item)
-    return Result(
-        **{name: content[name] for name in KINDS},
-        next=tuple(content["next"]),
-        findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
-    )
+    for place, (kind, read) in enumerate(readers.items()):
+        for entry in content[kind]:
+            studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
+    findings = {name: Findings(*map(tuple, parts)) for name, parts in studies.items()}
+    said = {name: content[name] for name in KINDS}
+    result = Result(**said, next=tuple(content["next"]), findings=findings)
+    if not result.figures:  # which raises ValueError, too, where two have one name
+        raise ValueError("figures: has none")
+    return result
 
 
 def _figure(figure: Figure) -> dict:

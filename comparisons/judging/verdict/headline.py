@@ -134,7 +134,7 @@ def _inconclusive(run: Run, within: Within, worst: Figure) -> str:
     if run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES) and not within.figure:
         return "nothing said of an elastic body will hold"
     error = _other(run, within, worst, "the error of ") or "this error"
-    largest, tolerance = max(worst.unknown, key=worst.unknown.get, default=""), _tolerance([worst])
+    largest, tolerance = worst.largest_unknown, _tolerance([worst])
     if worst.not_modelled == inf:
         return "an error of unknown size lies within no tolerance"
     if not largest or worst.is_unresolved:

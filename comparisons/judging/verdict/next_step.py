@@ -145,7 +145,7 @@ def _candidates(run: Run, kind: str) -> Iterator[Offer]:
 def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:
     """What would decide an error: its largest unknown computed, or a smaller uncertainty; else the
     tolerance at which it holds."""
-    largest = max(worst.unknown, key=worst.unknown.get, default="")
+    largest = worst.largest_unknown
     why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
     because = f"{EFFECTS[largest].label} is not computed: {why}" if why else ""
     if not worst.is_unresolved and largest:

@@ -31,10 +31,9 @@ def figures_of_whole(run: Run) -> str:
             why = f"more than the body bears, {with_unit(borne, 'Pa')}"
             withheld.setdefault(why, []).append(figure)
         elif not unsure <= error.tolerance:
-            largest = max(of_whole.unknown, key=of_whole.unknown.get, default="")
             why = "finer levels take more budget.time"
             if of_whole.not_modelled > of_whole.numerical:
-                why = f"{EFFECTS[largest].label} is not modelled"
+                why = f"{EFFECTS[of_whole.largest_unknown].label} is not modelled"
             withheld.setdefault(f"not known to the tolerance ({why})", []).append(figure)
         else:
             offered.append(figure)
