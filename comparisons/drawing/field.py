@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from comparisons.drawing.style import COLUMN, HATCHED, figure, power_of_ten, stacked
+from comparisons.drawing.curves import panels
+from comparisons.drawing.style import COLUMN, HATCHED, power_of_ten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,24 +74,22 @@ class ColourScale:
         return cls.over(label, differences, DIFFERENCE_COLOURS, signed=True)
 
 
-def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]":
-    """An empty figure, its fields from top to bottom, and its colour bars. The models stand above
-    one bar; with two models their difference follows, above another."""
-    block, bar = (TITLE, height), (FOOT, BAR)
-    panels = [block] * models + [bar]
-    if models > 1:
-        panels += [(BAR_LABEL + TITLE, height), bar]
-    drawn = figure(COLUMN, sum(map(sum, panels)) + BAR_LABEL)
-    places = stacked(drawn, panels, LEFT, COLUMN - LEFT - WIDTH)
-    bars = places[models::2]
-    places = places[:models] + places[models + 1 :: 2]
-    for axes in bars:
-        box, inset = axes.get_position(), INSET / COLUMN
-        axes.set_position((box.x0 + inset, box.y0, box.width - inset, box.height))
-    for axes in places[: models - 1]:
-        axes.tick_params(labelbottom=False)
-    places[models - 1].set_xlabel("x/a")
-    return drawn, places, bars
+def layout(counts: Sequence[int], height: float) -> "tuple[Figure, list[list[Axes]]]":
+    """An empty figure with groups of so many fields, one below the other; under each group, last of
+    its axes, its colour bar."""
+    rows = []
+    for count in counts:
+        above = TITLE + (BAR_LABEL if rows else 0.0)
+        rows += [(above, height), *[(TITLE, height)] * (count - 1), (FOOT, BAR)]
+    drawn, axes = panels(COLUMN, rows, LEFT, COLUMN - LEFT - WIDTH, BAR_LABEL)
+    groups, inset = [[axes.pop(0) for _ in range(count + 1)] for count in counts], INSET / COLUMN
+    for *above, last, bar in groups:
+        for place in above:
+            place.tick_params(labelbottom=False)
+        last.set_xlabel("x/a")
+        box = bar.get_position()
+        bar.set_position((box.x0 + inset, box.y0, box.width - inset, box.height))
+    return drawn, groups
 
 
 def draw_field(
@@ -165,7 +164,7 @@ def colour_bar(axes: "Axes", shown: "ScalarMappable", scale: ColourScale) -> Non
 def draw_fields(
     x: np.ndarray,
     z: np.ndarray,
-    panels: Sequence[FieldPanel],
+    fields: Sequence[FieldPanel],
     scale: ColourScale,
     height: float | None = None,
     difference: tuple[str, ColourScale] | None = None,
@@ -173,13 +172,12 @@ def draw_fields(
     """One or two fields of `height` inches, to scale without, above one scale; of two also the
     first less the second, with its title, above another."""
     to_scale = float(np.clip(WIDTH * np.ptp(z) / np.ptp(x), LOW, TALL))
-    drawn, places, bars = layout(len(panels), height or to_scale)
-    rows = [(panel, scale) for panel in panels]
+    groups = [(fields, scale)]
     if difference is not None:
         title, other = difference
-        rows.append((FieldPanel(title, panels[0].values - panels[1].values), other))
-    shown = [draw_field(place, x, z, *row) for place, row in zip(places, rows, strict=True)]
-    for bar, row in zip(bars, (len(panels) - 1, len(rows) - 1), strict=False):
-        colour_bar(bar, shown[row], rows[row][1])
-    places[-1].set_xlabel("x/a")
+        groups.append(([FieldPanel(title, fields[0].values - fields[1].values)], other))
+    drawn, places = layout([len(one) for one, _ in groups], height or to_scale)
+    for (some, colours), (*above, bar) in zip(groups, places, strict=True):
+        shown = [draw_field(at, x, z, one, colours) for at, one in zip(above, some, strict=True)]
+        colour_bar(bar, shown[-1], colours)
     return drawn

@@ -73,7 +73,7 @@ def test_fields_and_their_difference_are_those_of_the_run(wavy: dict[str, list],
 def test_a_field_stands_the_right_way_up_on_depths_that_are_not_even():
     x, z = np.linspace(-1.5, 1.5, 31), np.linspace(0.0, 1.0, 20) ** 3
     with drawing():
-        _, [axes], _ = layout(1, 1.5)
+        _, [[axes, _]] = layout([1], 1.5)
         panel = FieldPanel("depth", z[:, None] + 0.0 * x)
         fine = ColourScale("z", np.linspace(0.0, 1.0, 51), "viridis", False)
         scale = draw_field(axes, x, z, panel, fine)
