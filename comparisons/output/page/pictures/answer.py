@@ -35,18 +35,16 @@ WORDS = COLOURS | {"inconclusive": "#565c63"}  # in a darker grey
 
 def overview_picture(run: Run) -> style.Picture:
     """Pressures, the difference of models, surfaces under load, and the shear below."""
-    said, friction = "Pressures over Hertz's", run.deciding_friction
-    caption = (
-        "Over the same x: pressures over Hertz's, how far models are apart, surfaces under load"
-    )
+    said = "Over the same x: pressures over Hertz's"
     if len(run.runs) > 1:
-        said += f", {_models(run, friction)}"
-    said += "; surfaces under load"
+        said += f", how far models are apart ({_models(run, run.deciding_friction)})"
+    said += ", surfaces under load with heights stretched"
     if run.window is not None:
-        said += f"; {_largest(run)}"
-        caption += " with heights stretched, principal shear stress τ₁ below"
+        said += ", principal shear stress τ₁ below"
+    largest = "" if run.window is None else f" {_largest(run)}."
     drawn = overview(run, style.COLUMN)
-    return style.picture(drawn, f"The run in one picture. {said}.", f"{caption}.", data=False)
+    alternative = f"The run in one picture: pressures, surfaces under load.{largest}"
+    return style.picture(drawn, alternative, f"{said}.", data=False)
 
 
 def overview(run: Run, width: float) -> "Drawn":

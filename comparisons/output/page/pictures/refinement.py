@@ -46,14 +46,9 @@ def convergence_picture(run: Run) -> style.Picture | None:
     panels = {n: of for n, of in judged_figures(run).items() if len(of[0].levels) > 2}
     if not panels:
         return None
-    said = "; ".join(
-        f"{name}, {NAMES[source_of(figure)]}: {figure.uncertainty.convergence.behaviour}"
-        for name, figures in panels.items()
-        for figure in figures
-    )
     return style.picture(
         _drawn(run, panels),
-        f"Error over element size of each judged figure. {said}.",
+        f"Error over element size of each judged figure: {'; '.join(panels)}.",
         "Distance from the extrapolated value over the size of the pressure elements, both "
         "logarithmic; without marks, the formal order. A bar: the stated uncertainty of "
         "discretisation on the finest level. Where three levels show an order, their distances "
