@@ -3,7 +3,8 @@
 In: an error budget, whose finite elements are solved already. Out: a rung a model. Hertz's contact
 is a closed form; every other rung is what the run has solved for its verdict."""
 
-from collections.abc import Callable, Iterable, Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
@@ -12,10 +13,12 @@ import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.common.tasks import LAST, Tasks
-from comparisons.figures.figure import Figure, Figures, deciding
+from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
+from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.model_error import Solutions, figure_of
+from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
@@ -44,8 +47,6 @@ WORDS = {
     "exact_circle": "exact circle",
     CAP: f"pressures up to {TABOR:g} Y",
 }
-# Of a quantity, by its row of the models' comparison, at one friction coefficient.
-Error = Callable[[Solutions, Figure], Figure]
 
 
 def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
@@ -90,34 +91,26 @@ class Rung:
         return ORDER.index(self.name if self.name in ORDER else _dearest(self.effects))
 
 
-def rungs(
-    solved: Solved,
-    budget: ErrorBudget,
-    compared: Iterable[Figure],
-    flow: FlowAssessment,
-    tasks: Tasks,
-) -> list[Rung]:
-    """Every model, from the cheapest to the whole.
-
-    compared  rows of the models' comparison, those that are judged
-    tasks     that solve what only the ladder asks for: half-planes with some of the effects, where
-              nothing cheaper holds, and the same effects in finite elements are not refuted"""
-    rung, problem = partial(_judged, budget, tuple(compared)), solved.problem
-    made, effects = list(_solved(solved, budget, rung)), budget.selection.whole
-    flows = bool(nothing_suffices(budget, flow))
-    linear = frozenset() if flows else carried(problem, effects, flow)
-    if any(one.verdict == "fails" for one in made if one.effects == linear):
-        linear = frozenset()
+def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Tasks) -> list[Rung]:
+    """Every model, from the cheapest to the whole. The tasks solve what only the ladder asks for:
+    half-planes with some of the effects, where nothing cheaper holds, and the same effects in
+    finite elements are not refuted."""
+    made, effects = list(_solved(solved, budget)), budget.selection.whole
+    flows, problem = bool(nothing_suffices(budget, flow)), solved.problem
+    linear = () if flows else carried(problem, effects, flow)
+    refuted = any(rung.verdict == "fails" for rung in made if rung.effects == linear)
+    if refuted or why_no_stresses(problem, solved.window) is not None:
+        linear = ()
     deformed = () if flows or FLOW in effects else carried_deformed(problem, effects)
-    possible = why_no_stresses(problem, solved.window) is None
-    for name, held in ((OPERATORS, linear if possible else ()), (DEFORMED, deformed)):
-        if any(one.verdict == "holds" for one in made if one.name in ANALYTIC):
+    for name, held in ((OPERATORS, linear), (DEFORMED, deformed)):
+        if any(rung.verdict == "holds" for rung in made if rung.name in ANALYTIC):
             break
         runs = operator_runs(solved, held, tasks) if held else None
         if runs is not None:
             took = _took(next(iter(runs.values())))  # what all took together
-            made.append(rung(name, held, words_of(held), took, _against(budget, runs)))
-    return sorted(made, key=lambda one: one.place)
+            errors = (e for one in budget.solutions for e in _beside(one, runs))
+            made.append(_rung(budget, solved, name, held, words_of(held), took, errors))
+    return sorted(made, key=lambda rung: rung.place)
 
 
 def nothing_suffices(budget: ErrorBudget, flow: FlowAssessment) -> str:
@@ -125,88 +118,65 @@ def nothing_suffices(budget: ErrorBudget, flow: FlowAssessment) -> str:
     return "" if FLOW in budget.selection.whole else flow.beyond_doubt
 
 
-def _solved(solved: Solved, budget: ErrorBudget, rung: Callable[..., Rung]) -> Iterator[Rung]:
+def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
     """What the run has for its verdict, and a closed form."""
     selection, every, none = budget.selection, budget.solutions, frozenset()
+    rung, own = partial(_rung, budget, solved), budget.selection.contained
     if (smooth := closed_form(solved.problem)) is not None:
         began = perf_counter()
-        exact = {case.friction: _closed_form(case, solved.window) for case in solved.cases}
+        exact = [_closed_form(one.case, solved.window) for one in every]
         took = perf_counter() - began, 0.0
-
-        def of_hertz(one: Solutions, row: Figure) -> Figure:
-            return one.of_exact(row.quantity, exact[row.friction][row.quantity])
-
-        yield rung(HERTZ, none, f"{smooth.name}'s closed form", took, of_hertz)
-    known = Figures(budget.model_errors)
-
-    def of_half_plane(one: Solutions, row: Figure) -> Figure:
-        return known.one(quantity=row.quantity, friction=row.friction)
-
-    yield rung(HALF_PLANE, none, "half-plane", _took(solved.runs[HALF_PLANE]), of_half_plane)
-    own = selection.contained
+        errors = (e for one, of in zip(every, exact, strict=True) for e in one.of_exact(of))
+        yield rung(HERTZ, none, f"{smooth.name}'s closed form", took, errors)
+    took = _took(solved.runs[HALF_PLANE])
+    yield rung(HALF_PLANE, none, "half-plane", took, budget.model_errors)
     for name in dict.fromkeys(name for one in every for name in one.effects):
         levels = [level for one in every for level in one.split_levels if name in level.pairs]
-        is_whole = all(level.pairs[name][0] is level.whole for level in levels)
-        if own != {name} and not is_whole:
-
-            def of_effect(one: Solutions, row: Figure, name: str = name) -> Figure:
-                # with the effect, or where it does nothing, without any
-                levels = [lv.pairs.get(name, (lv.nothing,))[0] for lv in one.split_levels]
-                return one.of_levels(row.quantity, levels)
-
+        if own != {name} and any(level.pairs[name][0] is not level.whole for level in levels):
             words = f"finite elements with {EFFECTS[name].label}"
             words = f"{ELEMENTS[name]} alone" if name in ELEMENTS else words
-            yield rung(name, frozenset({name}), words, budget.took[name], of_effect)
-    lacking = (change for one in every for change in one.missing[-1].figures.values())
-    if own and any(map(np.any, lacking)):
-
-        def of_own(one: Solutions, row: Figure) -> Figure:
-            return one.of_levels(row.quantity, [level.of_scene for level in one.history])
-
-        yield rung(OTHER, own, _words_of_elements(own), _took(solved.runs[OTHER]), of_own)
-    seconds, memory = _took(solved.runs[OTHER])
-    more, most = budget.took.get(WHOLE, (0.0, 0))
-    words, took = _words_of_elements(selection.whole), (seconds + more, max(memory, most))
-
-    def of_whole(one: Solutions, row: Figure) -> Figure:
-        return one.of_exact(row.quantity)
-
-    yield rung(WHOLE, selection.whole, f"whole model: {words}", took, of_whole)
+            errors = (e for one in every for e in one.of_levels(_with(name, one)))
+            took = _took_by(
+                budget, (one.split.pairs[name][0] for one in every if name in one.split.pairs)
+            )
+            yield rung(name, frozenset({name}), words, took, errors)
+    took = _took(solved.runs[OTHER])
+    lacking = (h.not_contained.figures.values() for one in every for h in one.history[-1:])
+    if own and any(np.any(change) for figures in lacking for change in figures):
+        errors = (e for one in every for e in one.of_levels([h.of_scene for h in one.history]))
+        yield rung(OTHER, own, _words_of_elements(own), took, errors)
+    more, most = _took_by(budget, (variant for one in every for variant in one.split.wholes))
+    words = f"whole model: {_words_of_elements(selection.whole)}"
+    errors = (error for one in every for error in one.of_exact())
+    yield rung(WHOLE, selection.whole, words, (took[0] + more, max(took[1], most)), errors)
 
 
-def _against(budget: ErrorBudget, runs: dict[float, ModelRun]) -> Error:
+def _with(name: str, one: Solutions) -> list[QuantitiesOfInterest]:
+    """Finite elements with one effect, or where it does nothing, without any."""
+    return [level.pairs.get(name, (level.nothing,))[0] for level in one.split_levels]
+
+
+def _beside(one: Solutions, runs: dict[float, ModelRun]) -> Iterator[Figure]:
     """Errors of a model that was solved on the pressure elements of the finite elements."""
-    known = {}
-    for one in budget.solutions:
-        run, elements = runs[one.case.friction], one.case.runs[OTHER]
-        case = replace(one.case, runs={HALF_PLANE: run, OTHER: elements})
-        rows = judged(run, case.problem, elements)
-        known[case.friction] = replace(one, case=case), rows
-
-    def error(one: Solutions, row: Figure) -> Figure:
-        solutions, rows = known[row.friction]
-        return solutions.error(rows[row.quantity])
-
-    return error
+    run, elements = runs[one.case.friction], one.case.runs[OTHER]
+    known = replace(one, case=replace(one.case, runs={HALF_PLANE: run, OTHER: elements}))
+    return map(known.error, judged(run, one.case.problem, elements).values())
 
 
-def _judged(
+def _rung(
     budget: ErrorBudget,
-    compared: tuple[Figure, ...],
+    solved: Solved,
     name: str,
     effects: frozenset[str],
     words: str,
     took: tuple[float, float],
-    error: Error,
+    errors: Iterable[Figure],
 ) -> Rung:
-    """A rung by its errors; `took` seconds, and memory [bytes]."""
-    pairs = [(o, row) for o in budget.solutions for row in compared if row.at == o.case.at]
-    errors = (
-        figure_of(error(one, row), budget.selection, {row.quantity: row.tolerance})
-        for one, row in pairs
-    )
+    """With those errors that are judged; `took` seconds, and memory [bytes]."""
+    known = budget.selection, solved.problem.scene.tolerances
     mine = {"study": LADDER, "source": name, "parts": (), "place": None}
-    return Rung(name, effects, words, *took, tuple(replace(figure, **mine) for figure in errors))
+    figures = (replace(figure_of(error, *known), **mine) for error in errors)
+    return Rung(name, effects, words, *took, tuple(f for f in figures if f.bounds is not None))
 
 
 def announce_operators(
@@ -248,6 +218,12 @@ def _closed_form(case: Case, window: Window | None) -> dict[str, float]:
 def _took(run: ModelRun) -> tuple[float, float]:
     """Seconds of a model's levels, and the largest memory of their processes [bytes]."""
     return sum(run.seconds.values()), max(level.peak_memory for level in run.levels)
+
+
+def _took_by(budget: ErrorBudget, variants: Iterable[ModelVariant]) -> tuple[float, float]:
+    """Seconds of variants on all of their levels, and the largest memory [bytes]."""
+    costs = [budget.took.get(variant, (0.0, 0)) for variant in dict.fromkeys(variants)]
+    return math.fsum(seconds for seconds, _ in costs), max(memory for _, memory in costs)
 
 
 def _dearest(effects: Iterable[str]) -> str:

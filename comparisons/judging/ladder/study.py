@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement, nearest_to_tolerance
 from comparisons.figures.quantity import QUANTITIES, WHOLE
-from comparisons.judging import comparison, coupling, yielding
+from comparisons.judging import coupling, yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import show
 from comparisons.judging.ladder.rungs import (
@@ -41,8 +41,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     if not budget.solutions:
         why = budget.unsplit or "the whole model has no solution"
         return Findings(statements=(Statement(WHY_NOT, why),))
-    compared = (row for row in before[comparison.NAME].figures if row.bounds is not None)
-    made = rungs(solved, budget, compared, flow, tasks)
+    made = rungs(solved, budget, flow, tasks)
     figures = tuple(figure for rung in made for figure in rung.figures)
     columns = {
         "rung": Column(tuple(rung.name for rung in made)),
@@ -51,11 +50,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         "peak_memory": Column(tuple(rung.memory for rung in made), "byte"),
     }
     series = (Series(show.RUNGS, columns, is_account=True),)
-    return Findings(
-        figures,
-        series,
-        tuple(_statements(made, before[MODEL_ERROR], nothing_suffices(budget, flow))),
-    )
+    said = _statements(made, before[MODEL_ERROR], nothing_suffices(budget, flow))
+    return Findings(figures, series, tuple(said))
 
 
 def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Statement]:

@@ -42,7 +42,6 @@ from comparisons.judging.effects.estimates import (
 )
 from comparisons.judging.effects.sampling import announce_sampling, sampling_estimate
 from comparisons.judging.effects.selection import EffectSelection, is_negligible, select_effects
-from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import NotComputedError, split_variants
 from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.model_error.refinement import (
@@ -101,7 +100,7 @@ def error_budget(
         known = sampling_estimate(solved, tasks)
         selection = selection.estimated(SAMPLING, *known, scene.tolerances)
     seconds = math.fsum(seconds for seconds, _ in variants.took.values())
-    return replace(budget, selection=selection, seconds=seconds, took=_took(effects))
+    return replace(budget, selection=selection, seconds=seconds, took=variants.took)
 
 
 def _unsplit(row: Figure) -> Figure:
@@ -171,19 +170,6 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     return replace(selection.without(frozenset({FINITE}), why), time=time)
 
 
-def _took(effects: EffectRefinement) -> dict[str, tuple[float, int]]:
-    """Of each effect by itself and of the whole, of all friction coefficients together."""
-    wanted: dict[str, list[ModelVariant]] = {WHOLE: list(effects.wholes)}
-    for split in effects.splits:
-        for name, (with_it, _) in split.pairs.items():
-            wanted.setdefault(name, []).append(with_it)
-    took = {}
-    for name, variants in wanted.items():
-        costs = [effects.variants.took.get(one, (0.0, 0)) for one in dict.fromkeys(variants)]
-        took[name] = math.fsum(cost[0] for cost in costs), max(cost[1] for cost in costs)
-    return took
-
-
 def announce_effects(
     solved: Solved, couplings: tuple[Coupling, ...], tasks: Tasks
 ) -> Callable[[], None]:
@@ -194,25 +180,14 @@ def announce_effects(
     Call what is returned once the scene's own finite elements leave a figure open on the least
     levels. The whole will leave it open, too: its further level need not wait, and a process stays
     with the bodies of one level."""
-    problem, half_plane = solved.problem, solved.runs["half_plane"]
-    variants = SolvedVariants(solved, tasks)
-    effects = EffectRefinement((), variants, selected_effects(solved, couplings))
-    wholes, every = effects.wholes, effects.every
-    again = [variant for split in effects.splits for variant in split.checks]
-    most = min(most_effect_levels(problem), len(half_plane.levels))
-    if FLOW in effects.selection.added:
+    selection = selected_effects(solved, couplings)
+    effects = EffectRefinement((), SolvedVariants(solved, tasks), selection)
+    most = min(most_effect_levels(solved.problem), len(solved.runs["half_plane"].levels))
+    if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
-
-    def announce(splitting: int, further: int) -> None:
-        variants.announce(again, 1, splitting)
-        for number in range(1, most + 1):
-            is_further = number > LEAST_LEVELS
-            variants.announce(wholes, number, further if is_further else LATER)
-            variants.announce(() if is_further else every, number, splitting)
-
-    announce(LAST, PERHAPS)
+    effects.announce(LAST, most, PERHAPS)
     announce_sampling(solved, tasks)
-    return partial(announce, LATER, LATER)
+    return partial(effects.announce, LATER, most)
 
 
 def selected_effects(
@@ -248,16 +223,12 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
     """Whether every judged row agrees or differs whatever the effects do that its finite elements
     do not have."""
     missing = [sizes for n, sizes in selection.estimates.items() if n not in selection.contained]
-    return all(
-        is_decided(
-            row.value,
-            row.numerical,
-            sum(sizes.get(row.quantity, 0.0) for sizes in missing),
-            row.tolerance,
-        )
-        for row in rows
-        if row.tolerance is not None
-    )
+
+    def decided(row: Figure) -> bool:
+        size = sum(sizes.get(row.quantity, 0.0) for sizes in missing)
+        return is_decided(row.value, row.numerical, size, row.tolerance)
+
+    return all(decided(row) for row in rows if row.tolerance is not None)
 
 
 def _given_up(effects: EffectRefinement) -> frozenset[str]:

@@ -7,7 +7,7 @@ effects. A largest value is followed asperity by asperity, and the whole's is th
 in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
 value at another one, what lies between the two is the jump, no effect."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -26,16 +26,14 @@ from comparisons.figures.uncertainty import (
 from comparisons.judging.effects.catalogue import EFFECTS, LAW
 from comparisons.judging.effects.laws import LawSolutions, LawSpread
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import EffectContributions
+from comparisons.judging.model_error.contributions import EffectContributions, SplitVariants
 from comparisons.judging.model_error.quantities_of_interest import (
     LARGEST,
     QuantitiesOfInterest,
     quantities_of,
 )
-from comparisons.judging.rule import formal_order, judged, relative_resolution, values_of
+from comparisons.judging.rule import formal_order, judged, relative_resolution
 from comparisons.judging.study import MODEL_ERROR, Case
-from comparisons.models.level import ModelRun
-from comparisons.models.problem import Problem
 
 INTERACTION, JUMP = "interaction", "jump"  # parts beside the effects
 INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
@@ -66,14 +64,7 @@ class Solutions:
     # by effect of size, what lacks it on the coarsest level with its far boundary at half the
     # distance, where it has a solution
     nearer: dict[str, QuantitiesOfInterest] = field(default_factory=dict)
-
-    @property
-    def problem(self) -> Problem:
-        return self.case.problem
-
-    @property
-    def runs(self) -> Mapping[str, ModelRun]:
-        return self.case.runs
+    split: SplitVariants | None = None  # what was solved
 
     @cached_property
     def split_levels(self) -> list[EffectContributions]:
@@ -88,72 +79,55 @@ class Solutions:
         return [name for name in last if all(name in level.pairs for level in self.split_levels)]
 
     @cached_property
-    def values(self) -> dict[str, dict[str, float]]:
-        """Of each model's finest level, by model and quantity [SI]."""
-        runs = self.runs.items()
-        return {name: values_of(run.finest, self.problem) for name, run in runs}
-
-    @cached_property
-    def half_plane(self) -> list[QuantitiesOfInterest]:
-        return self._levels("half_plane")
+    def half_plane(self) -> QuantitiesOfInterest:
+        """Its finest level."""
+        return quantities_of(self.case.runs["half_plane"].finest, self.case.problem)
 
     @cached_property
     def of_scene(self) -> list[QuantitiesOfInterest]:
         """The scene's own finite elements, by level."""
-        return self._levels("finite_element")
-
-    def _levels(self, model: str) -> list[QuantitiesOfInterest]:
-        return [quantities_of(level, self.problem) for level in self.runs[model].levels]
-
-    @cached_property
-    def wholes(self) -> list[QuantitiesOfInterest]:
-        """With every effect, on the levels of the effects."""
-        return [level.whole for level in self.history]
-
-    @cached_property
-    def missing(self) -> list[QuantitiesOfInterest]:
-        """What the scene's own finite elements lack of the wholes."""
-        return [level.not_contained for level in self.history]
+        levels = self.case.runs["finite_element"].levels
+        return [quantities_of(level, self.case.problem) for level in levels]
 
     @cached_property
     def whole(self) -> QuantitiesOfInterest:
         """The finest one: the scene's own finite elements there, and what they lack. A whole that
         flows beside them stands for itself: what flow takes depends on the level as they do."""
+        last, finest = self.history[-1], self.of_scene[-1].figures
         if self.longer is not None:
-            return self.wholes[-1]
-        lacking = self.missing[-1].figures.items()
-        figures = {name: self.of_scene[-1].figures[name] + value for name, value in lacking}
-        return QuantitiesOfInterest(figures)
+            return last.whole
+        lacking = last.not_contained.figures.items()
+        return QuantitiesOfInterest({name: finest[name] + value for name, value in lacking})
 
     @cached_property
     def unsolved(self) -> float:
         """What the solvers' iterations leave, relative."""
         number = len(self.history) - 1
-        pairs = ((run.finest, run.levels[number]) for run in self.runs.values())
+        pairs = ((run.finest, run.levels[number]) for run in self.case.runs.values())
         return iteration(*(level.solution for pair in pairs for level in pair))
 
     @cached_property
     def resolutions(self) -> dict[str, float]:
         """By quantity, what the pressure elements of the effects' finest level cannot resolve."""
-        level = self.runs["finite_element"].levels[len(self.history) - 1]
+        level = self.case.runs["finite_element"].levels[len(self.history) - 1]
         return {
             "contact_length": relative_resolution(level, level),
-            "peak_pressure": self.wholes[-1].peak_resolution,
+            "peak_pressure": self.history[-1].whole.peak_resolution,
         }
 
     def error(self, row: Figure) -> Figure:
         """The half-plane's, in the quantity of a row of the models' comparison, with its parts: the
         difference from the scene's own finite elements is on the same pressure elements."""
-        name, half_plane = row.quantity, self.values["half_plane"][row.quantity]
-        at = self.whole.leading(name)
+        name, at = row.quantity, self.whole.leading(row.quantity)
+        half_plane, own = (of.largest()[name] for of in (self.half_plane, self.of_scene[-1]))
         figure, scale = self._size(name, at)
-        numerical = row.numerical * self._scale(self.values["finite_element"][name], name) / scale
+        numerical = row.numerical * self._scale(own, name) / scale
         if at != self.of_scene[-1].leading(name):  # the comparison is at another asperity
             sequence = [level.figures[name][at] / scale for level in self.of_scene]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
         if self.longer is not None:  # the half-plane on its finest level, the whole on another
-            stated = judged(self.runs["half_plane"], self.problem)[name]
+            stated = judged(self.case.runs["half_plane"], self.case.problem)[name]
             numerical += stated.numerical * self._scale(half_plane, name) / scale
         if name in LARGEST:
             numerical += self._of_competitors(name, numerical, at) / scale
@@ -164,22 +138,26 @@ class Solutions:
         jump, moved = self._jump(name, row.numerical, at)
         return replace(error, parts=(*parts, Part(JUMP, jump), *error.parts), place=moved)
 
-    def of_levels(self, name: str, levels: Sequence[QuantitiesOfInterest]) -> Figure:
-        """Of finite elements with other effects, on the last of the levels of the effects."""
-        at, pairs = self.whole.leading(name), zip(levels, self.wholes, strict=False)
-        middle = 1.0 + self._spread(name, at).middle
-        apart = [one.largest()[name] - middle * whole.largest()[name] for one, whole in pairs]
-        error, unsure = self._estimate(name, apart, at)
-        return self._figure(name, error, unsure, self._increments(name, at) if any(apart) else 0.0)
+    def of_levels(self, levels: Sequence[QuantitiesOfInterest]) -> Iterator[Figure]:
+        """Errors of finite elements with other effects, on the last level of these."""
+        pairs = zip(levels, self.history, strict=False)
+        sizes = [(one.largest(), level.whole.largest()) for one, level in pairs]
+        for name in self.whole.figures:
+            at = self.whole.leading(name)
+            middle = 1.0 + self._spread(name, at).middle
+            apart = [one[name] - middle * whole[name] for one, whole in sizes]
+            lacking = self._increments(name, at) if any(apart) else 0.0
+            yield self._figure(name, *self._estimate(name, apart, at), lacking)
 
-    def of_exact(self, name: str, value: float | None = None) -> Figure:
-        """Of a model without numerical error, by its value [SI]; of the whole itself by default,
-        what is not known of it."""
-        figure, scale = self._size(name, self.whole.leading(name))
-        error = 0.0 if value is None else (value - figure) / scale
-        stated = judged(self.runs["finite_element"], self.problem)[name]
-        numerical = stated.numerical * abs(self.of_scene[-1].largest()[name]) / scale
-        return self._figure(name, error, numerical, self._lacking(name))
+    def of_exact(self, exact: Mapping[str, float] | None = None) -> Iterator[Figure]:
+        """Errors of figures [SI] that have no numerical error; by default of the whole itself: what
+        is not known of it."""
+        stated = judged(self.case.runs["finite_element"], self.case.problem)
+        for name, own in self.of_scene[-1].largest().items():
+            figure, scale = self._size(name, self.whole.leading(name))
+            error = 0.0 if exact is None else (exact[name] - figure) / scale
+            numerical = stated[name].numerical * abs(own) / scale
+            yield self._figure(name, error, numerical, self._lacking(name))
 
     def _figure(self, name: str, error: float, numerical: float, lacking: float) -> Figure:
         """A model against the whole: (model - whole) / whole.
@@ -224,12 +202,12 @@ class Solutions:
 
     def _scale(self, figure: float, name: str) -> float:
         """What differences are measured by [SI]: it, or the Hertz contact's where it vanishes."""
-        return abs(figure) or QUANTITIES[name].scale(self.problem.hertz)
+        return abs(figure) or QUANTITIES[name].scale(self.case.problem.hertz)
 
     def _order(self, name: str) -> float:
         """Of convergence under refinement."""
-        finest = [run.finest for run in self.runs.values()]
-        return formal_order(name, finest, self.problem)
+        finest = [run.finest for run in self.case.runs.values()]
+        return formal_order(name, finest, self.case.problem)
 
     def _estimate(self, name: str, changes: Sequence[float], at: int) -> tuple[float, float]:
         """The relative size, with its uncertainty, of changes [SI], one a level, at an asperity."""
@@ -269,8 +247,8 @@ class Solutions:
 
     def _missing(self, name: str, at: int) -> float:
         """The part by levels; of a whole that flows beside them, and stands for itself, by its."""
-        levels = self.missing if self.longer is None else self.wholes
-        return self._estimate(name, [level.figures[name][at] for level in levels], at)[1]
+        beside = [h.not_contained if self.longer is None else h.whole for h in self.history]
+        return self._estimate(name, [level.figures[name][at] for level in beside], at)[1]
 
     def _increments(self, name: str, at: int) -> float:
         """The part by increments of flow; unknown where longer ones have no solution."""
@@ -284,7 +262,7 @@ class Solutions:
 
         numerical  of the figure, relative"""
         largest, whole = LARGEST[name], self.whole.figures
-        stated = judged(self.runs["finite_element"], self.problem)
+        stated = judged(self.case.runs["finite_element"], self.case.problem)
         alone = stated[largest].numerical  # a depth does not say where it is
         alone = max(numerical, alone) if largest == name else alone
         values, top = whole[largest], whole[largest][at]
@@ -305,12 +283,12 @@ class Solutions:
     ) -> tuple[float, tuple[float, float] | None]:
         """What the half-plane's largest value exceeds its value at the whole's asperity by, and x
         [m] of its largest value and of the whole's, where these are no twin peaks, else None."""
-        half_plane, before = self.half_plane[-1], self.half_plane[-1].leading(name)
+        before = self.half_plane.leading(name)
         if before == at:
             return 0.0, None
-        largest, figures = LARGEST[name], half_plane.figures
+        largest, figures = LARGEST[name], self.half_plane.figures
         jump = float((figures[name][before] - figures[name][at]) / self._size(name, at)[1])
         if not figures[largest][before] / figures[largest][at] - 1.0 > numerical:
             return jump, None
-        places = half_plane.places[largest][before], self.wholes[-1].places[largest][at]
-        return jump, (float(places[0]), float(places[1]))
+        whole = self.history[-1].whole.places[largest][at]
+        return jump, (float(self.half_plane.places[largest][before]), float(whole))

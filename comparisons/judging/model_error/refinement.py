@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from comparisons.common.tasks import LAST
+from comparisons.common.tasks import LAST, LATER
 from comparisons.figures.figure import Figure, Figures
 from comparisons.judging.effects.catalogue import LAW
 from comparisons.judging.effects.laws import LawSolutions
@@ -47,8 +47,8 @@ class ErrorBudget:
     left_out: str | None = None
     # of each case, what else is compared with the whole; empty where it has no solution
     solutions: tuple[Solutions, ...] = ()
-    # by effect, and of the whole beside the scene's own: seconds, and largest memory [bytes]
-    took: dict[str, tuple[float, int]] = field(default_factory=dict)
+    # by variant: seconds, and the largest memory [bytes]
+    took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
 
     def figures(self, tolerance: Mapping[str, float]) -> Figures:
         """Every model error with all that is not known of it, judged where it has a tolerance."""
@@ -68,41 +68,51 @@ class EffectRefinement:
         self, rows: tuple[Figure, ...], variants: SolvedVariants, selection: EffectSelection
     ) -> None:
         self.rows, self.variants, self.selection = rows, variants, selection
-        self.problem, cases = variants.problem, variants.scene.cases
-        self.splits = [split_variants(self.problem, selection, case.friction) for case in cases]
+        self.problem, self.solutions = variants.problem, []
+        for case in variants.scene.cases:
+            split = split_variants(self.problem, selection, case.friction)
+            longer = [] if split.increments else None
+            self.solutions.append(Solutions(case, longer=longer, split=split))
+        self.splits = [one.split for one in self.solutions]
         variants.keep(split.whole for split in self.splits)
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
         self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
-        pairs = zip(cases, self.splits, strict=True)
-        self.solutions = [Solutions(c, longer=[] if s.increments else None) for c, s in pairs]
+
+    def announce(self, splitting: int, levels: int = LEAST_LEVELS, further: int = LATER) -> None:
+        """Make the variants known to the tasks: on so many levels the wholes, which others need, on
+        the least ones and as urgent as `splitting` what splits them, too."""
+        for split in self.splits:
+            self.variants.announce(split.checks, 1, splitting)
+        for number in range(1, levels + 1):
+            is_further = number > LEAST_LEVELS
+            self.variants.announce(self.wholes, number, further if is_further else LATER)
+            self.variants.announce(() if is_further else self.every, number, splitting)
 
     def budget(self, most: int, is_frugal: bool) -> ErrorBudget:
-        """The model errors by so many levels at most. The wholes, which others need, are solved
-        before what splits them.
+        """The model errors by so many levels at most; wholes are solved before what splits them.
 
         is_frugal  whether a level that cannot change a verdict is left out
         Raises NotComputedError where a whole has no solution on the least levels."""
         most = min(most, most_effect_levels(self.problem), len(self.variants.of_scene.levels))
-        for number in range(1, LEAST_LEVELS + 1):
-            self.variants.announce(self.every, number, LAST)
-        for split in self.splits:
-            self.variants.announce(split.checks, 1, LAST)
+        self.announce(LAST)
         left_out = self._take_wholes(most, is_frugal)
         levels = len(self.solutions[0].history)
         for number in range(1, levels + 1):
             is_open = any(self.variants.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
-        for number, split in enumerate(self.splits):
-            self._note(number, nearer=self._coarsest(number, split.held_nearer))
+        self.solutions = [
+            replace(one, nearer=self._coarsest(one, one.split.held_nearer))
+            for one in self.solutions
+        ]
         parts = (level.unsplit for one in self.solutions for level in one.history)
-        pairs = zip(self.splits, self.solutions, strict=True)
+        finest = self.variants.finest
         return ErrorBudget(
             selection=self.selection,
             levels=levels,
             unsplit=next(filter(None, parts), None),
             model_errors=tuple(self._errors()),
-            wholes=tuple(self.variants.finest(s.whole, one.case.friction) for s, one in pairs),
+            wholes=tuple(finest(one.split.whole, one.case.friction) for one in self.solutions),
             left_out=left_out,
             solutions=tuple(self.solutions),
         )
@@ -134,45 +144,44 @@ class EffectRefinement:
         """A level into the history: of the wholes alone, or of every variant."""
         self.variants.prepare(self.wholes if alone else self.every, number)
         taken = []
-        for one, split in zip(self.solutions, self.splits, strict=True):
+        for one in self.solutions:
             solved = partial(self.variants.solution, number=number, friction=one.case.friction)
-            parts = contributions_of(solved, split, alone)
+            parts = contributions_of(solved, one.split, alone)
             history = (*one.history[: number - 1], parts, *one.history[number:])
             taken.append(replace(one, history=history))
         self.solutions = taken  # all of them, or none
 
     def _take_laws(self) -> None:
         """The wholes on the coarsest level with other laws; where one has no solution, none."""
-        every = [self._coarsest(number, split.laws) for number, split in enumerate(self.splits)]
+        moved = [self._coarsest(one, one.split.laws) for one in self.solutions]
         for variant in (variant for split in self.splits for variant in split.laws.values()):
             if (error := self.variants.failed.get((variant, 1))) is not None:
                 why = f"with the law of {variant.laws_name}: {error}"
                 self.selection = self.selection.without(frozenset({LAW}), why)
                 return
-        for number, moved in enumerate(every):
-            known = self.problem, self.selection.laws, self.solutions[number].history[0].whole
-            self._note(number, laws=LawSolutions(*known, moved) if moved else None)
+        known, laws = zip(self.solutions, moved, strict=True), (self.problem, self.selection.laws)
+        self.solutions = [
+            replace(one, laws=LawSolutions(*laws, one.history[0].whole, of) if of else None)
+            for one, of in known
+        ]
 
     def _take_increments(self) -> None:
         """The wholes that flow on the coarsest level by longer increments; none where one of them
         has no solution."""
-        for number, split in enumerate(self.splits):
-            longer = self._coarsest(number, dict(enumerate(split.increments)))
-            if longer and len(longer) == len(split.increments):
-                self._note(number, longer=list(longer.values()))
+        for number, one in enumerate(self.solutions):
+            longer = self._coarsest(one, dict(enumerate(one.split.increments)))
+            if longer and len(longer) == len(one.split.increments):
+                self.solutions[number] = replace(one, longer=list(longer.values()))
 
     def _coarsest(
-        self, number: int, asked: Mapping[Hashable, ModelVariant]
+        self, one: Solutions, asked: Mapping[Hashable, ModelVariant]
     ) -> dict[Hashable, QuantitiesOfInterest]:
         """By key, those variants of a case that have a solution on the coarsest level."""
-        found, friction = {}, self.solutions[number].case.friction
+        found = {}
         for key, variant in asked.items():
             with suppress(NotComputedError):
-                found[key] = self.variants.solution(variant, 1, friction)
+                found[key] = self.variants.solution(variant, 1, one.case.friction)
         return found
-
-    def _note(self, number: int, **found: object) -> None:
-        self.solutions[number] = replace(self.solutions[number], **found)
 
     def _errors(self) -> list[Figure]:
         known = [(one, row) for one in self.solutions for row in self.rows]

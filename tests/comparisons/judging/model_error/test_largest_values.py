@@ -51,7 +51,6 @@ def errors(
     with patch.multiple(
         MODULE,
         quantities_of=lambda level, problem: level.values,
-        values_of=lambda level, *of: level.values.largest(),
         judged=lambda *arguments: stated,
         iteration=lambda *solutions: 0.0,
         relative_resolution=lambda *levels: 0.0,
@@ -59,7 +58,7 @@ def errors(
     ):
         solutions = Solutions(Case(problem, runs), tuple(history))
         if read is not None:
-            return {row.quantity: read(solutions, row.quantity) for row in rows}
+            return {error.quantity: error for error in read(solutions)}
         return {row.quantity: solutions.error(row) for row in rows}
 
 
@@ -72,13 +71,13 @@ def test_other_models_are_judged_by_their_own_largest_values(problem_with):
         known = errors(problem_with(), plain, plain, strained, {}, 1e-3, read)
         return [(known[n].value, known[n].numerical) for n in ("tau1_max", "tau1_max_depth")]
 
-    without = errors_by(lambda solutions, name: solutions.of_levels(name, [plain] * 3))
+    without = errors_by(lambda solutions: solutions.of_levels([plain] * 3))
     assert [value for value, _ in without] == pytest.approx([3.0 / 3.19 - 1.0, 2.0 / 3.0 - 1.0])
-    assert errors_by(lambda of, name: of.of_levels(name, [strained] * 3)) == [(0.0, 0.0)] * 2
-    exact = errors_by(lambda of, name: of.of_exact(name, plain.largest()[name]))
+    assert errors_by(lambda of: of.of_levels([strained] * 3)) == [(0.0, 0.0)] * 2
+    exact = errors_by(lambda of: of.of_exact(plain.largest()))
     assert [value for value, _ in exact] == pytest.approx([value for value, _ in without])
     assert exact[0][1] == pytest.approx(1e-3 * 3.0 / 3.19)
-    whole = errors_by(lambda of, name: of.of_exact(name))
+    whole = errors_by(lambda of: of.of_exact())
     assert whole == [(0.0, pytest.approx(1e-3 * ratio)) for ratio in (3.0 / 3.19, 2.0 / 3.0)]
 
 
