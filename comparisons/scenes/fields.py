@@ -227,7 +227,8 @@ class Several(FieldType):
         read = tuple(self.item.read(value) for value in values)
         for value in () if self.repeated else read:
             if read.count(value) > 1:
-                raise self.wrong(f"lists {describe(value)} twice")
+                shown = f"{value:g}" if isinstance(value, float) else describe(value)
+                raise self.wrong(f"lists {shown} twice")
         return read
 
     def allowed(self) -> str:
