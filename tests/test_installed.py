@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 import comparisons as crosscheck
 
@@ -61,13 +61,8 @@ def script(text: str, folder: Path, installed: Path) -> subprocess.CompletedProc
     """As a user runs his own, whose folder is then first on the path."""
     (folder / "his_script.py").write_text(text)
     variables = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
-    return subprocess.run(
-        [sys.executable, "his_script.py"],
-        cwd=folder,
-        env=variables | {"PYTHONPATH": str(installed), "OMP_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-    )
+    one = {"PYTHONPATH": str(installed), "OMP_NUM_THREADS": "1"}
+    return python("his_script.py", cwd=folder, env=variables, **one)
 
 
 def test_wheel_holds_every_file_of_the_packages(installed):

@@ -16,14 +16,13 @@ import pkgutil
 import re
 import shutil
 import subprocess
-import sys
 import tomllib
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 DATA_TYPES = {"analytic.material", "analytic.stress_state", "analytic.profile"}
 # What each package may import of ours: whole packages, or single modules.
@@ -197,13 +196,7 @@ def test_importing_every_module_loads_nothing_heavy():
     """Also by way of somebody else's module."""
     names = [dotted_name(path) for path in MODULES if path.stem != "__main__"]
     code = f"import importlib, sys\nfor n in {names!r}: importlib.import_module(n)\n"
-    done = subprocess.run(
-        [sys.executable, "-c", f"{code}print(*set(sys.modules) & {HEAVY!r})"],
-        cwd=PROJECT,
-        env=dict(os.environ),  # without what MPI, used in this process, would hand on
-        capture_output=True,
-        text=True,
-    )
+    done = python("-c", f"{code}print(*set(sys.modules) & {HEAVY!r})")
     assert (done.returncode, done.stdout.strip()) == (0, ""), done.stderr
 
 

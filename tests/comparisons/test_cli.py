@@ -8,7 +8,7 @@ import types
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
@@ -192,21 +192,10 @@ def test_help(capsys, arguments):
     assert all(command in out for command in ("run", "scenes", "doctor", "Exit status"))
 
 
-def python(code: str, **options) -> subprocess.CompletedProcess:
-    # without what MPI, used in this process, would hand on
-    options = {"env": dict(os.environ)} | options
-    return subprocess.run(
-        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, **options
-    )
-
-
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"]])
 def test_help_loads_nothing_heavy(arguments):
-    done = python(
-        "import sys; from comparisons.cli import main; "
-        f"main({arguments!r}); print(*sys.modules, file=sys.stderr)",
-        check=True,
-    )
+    code = f"import sys; from comparisons.cli import main; main({arguments!r}); "
+    done = python("-c", f"{code}print(*sys.modules, file=sys.stderr)")
     loaded = set(done.stderr.split())
     assert "comparisons.cli" in loaded
     assert loaded.isdisjoint(HEAVY)
@@ -220,7 +209,7 @@ from comparisons.runs import run
 run.finish = lambda *_: print({others} & {{*sys.modules}})
 from comparisons.cli import main
 main(["run", "smooth", "--models", "half-plane", "--out", {str(tmp_path / "out")!r}])"""
-    out = python(code).stdout
+    out = python("-c", code).stdout
     assert "peak pressure" in out.partition("set()\n")[0] and "set()\n" in out
 
 
@@ -229,7 +218,7 @@ def test_one_thread_unless_the_user_says_otherwise(wanted, taken):
     environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
     environment |= {"OMP_NUM_THREADS": wanted} if wanted else {}
     code = "import os, sys; from comparisons.cli import main; sys.argv = ['crosscheck', 'scenes']; "
-    done = python(f"{code} main(); print(os.environ['OMP_NUM_THREADS'])", env=environment)
+    done = python("-c", f"{code} main(); print(os.environ['OMP_NUM_THREADS'])", env=environment)
     assert done.stdout.splitlines()[-1] == taken
 
 

@@ -2,12 +2,10 @@
 
 import ast
 import json
-import subprocess
-import sys
 
 import matplotlib
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 from comparisons.drawing.style import collected_figures
 
@@ -62,8 +60,5 @@ def test_figures_stay_interactive_where_they_are():
 
 def test_a_script_without_a_guard_sweeps(tmp_path):
     (tmp_path / "script.py").write_text(SCRIPT)
-    command = [sys.executable, str(tmp_path / "script.py")]
-    done = subprocess.run(
-        command, capture_output=True, text=True, cwd=PROJECT, env={"PYTHONPATH": str(PROJECT)}
-    )
+    done = python(tmp_path / "script.py", env={})
     assert (done.stdout, done.returncode) == ("2\n", 0), done.stderr

@@ -1,11 +1,9 @@
 """MPI begins as one process, without a daemon, whatever started the process."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
+from scenes import python
 
 CHILDREN = """
 import os, pathlib, fem
@@ -18,11 +16,9 @@ LAUNCHED = {"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "2", "PMI_RANK"
 
 
 def said(code: str, **variables: str) -> str:
-    words = [sys.executable, "-c", code]
-    environment = {"PYTHONPATH": str(PROJECT)} | variables
-    return subprocess.run(
-        words, env=environment, check=True, capture_output=True, text=True
-    ).stdout.strip()
+    done = python("-c", code, env={}, **variables)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="there is no /proc to look in")

@@ -1,15 +1,28 @@
-"""The flat mesh: exact geometry, topology, size law, quality, repeatability, number of unknowns."""
+"""The flat mesh: exact geometry, topology, size law with its growth, caps and integrals, quality,
+repeatability, number of unknowns; lines across it that edges follow, and vertices of its own."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from blocks import WINDOW, of_kinds, top_vertices
+from blocks import BLOCK, GRADED, SPECS, WINDOW, of_kinds, top_vertices
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
+from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched
 from meshes.quality import corner_jacobians, quality_of
-from meshes.size_law import estimate_unknowns, largest_size, surface_edge, wanted_size
+from meshes.size_law import (
+    edges_per_size,
+    estimate_unknowns,
+    largest_size,
+    local_edges,
+    own_vertices,
+    point_size,
+    sum_of_integrals,
+    surface_edge,
+    uncapped_size,
+    wanted_size,
+)
 
 every = of_kinds("equal edges", "own vertices", "coating")
 
@@ -178,3 +191,230 @@ def test_impossible_request_is_refused_in_words(change, words):
     spec = BlockSpec(**(block | {"surface_size": 0.05} | change))
     with pytest.raises(MeshError, match=words):
         build_block(spec)
+
+
+def corners(mesh):
+    return mesh.points[mesh.triangles[:, :3]]
+
+
+@of_kinds("coating")
+def test_no_element_crosses_the_interface_and_its_edges_follow_all_of_it(mesh, signed_areas):
+    t, z = mesh.spec.interface, corners(mesh)[:, :, 1]
+    above = (z <= t).all(axis=1)
+    assert (above | (z >= t).all(axis=1)).all()
+    assert signed_areas(mesh)[above].sum() == pytest.approx(
+        2.0 * mesh.spec.half_width * t, rel=1e-12
+    )
+    edges, edge_of = unique_edges(mesh.triangles[:, :3])
+    along = (mesh.points[edges, 1] == t).all(axis=1)
+    length = np.abs(np.diff(mesh.points[edges[along], 0])).sum()
+    assert length == pytest.approx(2.0 * mesh.spec.half_width, rel=1e-12)
+    assert (np.bincount(edge_of.ravel())[along] == 2).all()
+
+
+@of_kinds("coating")
+def test_core_has_elements_across_and_no_more_than_it_takes(mesh, signed_areas):
+    t, (low, high) = mesh.spec.interface, core(mesh.spec)
+    corner, layer = corners(mesh), layer_size(mesh.spec)
+    centre = corner.mean(axis=1)
+    inside = (centre[:, 1] < t) & (centre[:, 0] > low) & (centre[:, 0] < high)
+    size = np.sqrt(4.0 / np.sqrt(3.0) * signed_areas(mesh)[inside])
+    assert size.max() < 1.3 * layer
+    assert surface_edge(mesh.spec) <= layer * (1.0 + 1e-9)
+    wanted = wanted_size(mesh.spec, *centre[inside].T)
+    assert 0.8 < np.median(size / wanted) < 1.1
+
+
+@of_kinds("coating")
+def test_layers_beside_the_core_are_stretched_but_not_without_bound(mesh, signed_areas):
+    beside = stretched(mesh)
+    t, (low, high) = mesh.spec.interface, core(mesh.spec)
+    exact = t * ((low + mesh.spec.half_width) + (mesh.spec.half_width - high))
+    assert signed_areas(mesh)[beside].sum() == pytest.approx(exact, rel=1e-9, abs=1e-12)
+    if beside.any():
+        corner = corners(mesh)[beside]
+        assert np.ptp(corner[..., 1], axis=1) == pytest.approx(t / LAYERS, rel=1e-9)
+        width = np.ptp(corner[..., 0], axis=1)
+        assert width.max() < 55.0 * t / LAYERS
+        longest = min(LONGEST * t / LAYERS, 1.1 * largest_size(mesh.spec))
+        assert width.max() < 1.1 * longest
+        assert width.max() > 0.6 * min(longest, 0.2 * mesh.spec.growth * mesh.spec.half_width)
+
+
+def test_number_of_unknowns_in_layers_is_estimated():
+    """Half of them in the layers of a wide block with little contact."""
+    mesh = build_block(BlockSpec(100.0, 200.0, np.array([[0.0, 0.05]]), 0.05, interface=0.15))
+    assert stretched(mesh).sum() > 0.2 * len(mesh.triangles)
+    assert estimate_unknowns(mesh.spec) == pytest.approx(2 * len(mesh.points), rel=0.12)
+
+
+def test_a_thin_coating_costs_less_than_its_length_in_layers(built):
+    mesh = built("thin coating")
+    in_equal_elements = 2.0 * LAYERS * 2.0 * 18.5 / layer_size(mesh.spec)
+    assert 0.01 < stretched(mesh).sum() / in_equal_elements < 0.05
+
+
+@pytest.mark.parametrize("interface", [0.0, -1.0, 40.0, np.nan])
+def test_interface_outside_the_block_is_refused(interface):
+    with pytest.raises(MeshError, match="interface is"):
+        build_block(replace(BLOCK, interface=interface))
+
+
+@of_kinds("own vertices")
+def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
+    vertices, x = mesh.spec.vertices, top_vertices(mesh)
+    inside = x[(x >= vertices[0]) & (x <= vertices[-1])]
+    assert np.isin(vertices, inside).all()
+    if mesh.spec.window is None and mesh.spec.interface is None and mesh.spec.depth > 1.0:
+        assert np.array_equal(inside, vertices)
+    else:
+        added = np.setdiff1d(inside, vertices)
+        assert len(added) > 0
+        cut = np.searchsorted(vertices, added)
+        parts = (added - vertices[cut - 1]) / np.diff(vertices)[cut - 1]
+        whole = parts * (np.bincount(cut) + 1)[cut]
+        assert whole == pytest.approx(np.round(whole), abs=1e-6)
+
+
+@of_kinds("own vertices")
+def test_elements_at_the_surface_have_the_size_of_its_edges(mesh):
+    corner = corners(mesh)
+    first, last = mesh.spec.vertices[[0, -1]]
+    among = (corner[..., 0] >= first).all(axis=1) & (corner[..., 0] <= last).all(axis=1)
+    corner = corner[among & ((corner[..., 1] == 0.0).sum(axis=1) == 2)]
+    edge = np.array([np.ptp(c[c[:, 1] == 0.0, 0]) for c in corner])
+    height = corner[..., 1].max(axis=1)
+    assert 0.7 < np.median(height / edge) < 1.0
+    assert (height / edge).max() < 2.0
+    assert (height / edge).min() > 0.3
+
+
+def test_size_law_follows_the_edges_down_and_beside_them():
+    edges = local_edges(GRADED)
+    spec = SPECS["own vertices"]["graded"]
+    assert wanted_size(spec, GRADED, np.zeros_like(GRADED)) == pytest.approx(edges, rel=1e-14)
+    assert wanted_size(spec, 0.0, 2.0) == pytest.approx(edges[len(edges) // 2] + 0.4)
+    beyond = np.array([GRADED[-1] + 3.0, 4.0])
+    assert wanted_size(spec, *beyond) == pytest.approx(edges[-1] + 0.2 * 5.0)
+
+
+def test_edges_are_cut_into_the_fewest_parts_that_fit():
+    spec = SPECS["own vertices"]["graded, thin"]
+    edge = np.diff(own_vertices(spec))
+    assert edge.max() <= 0.075
+    spacing = np.diff(GRADED)
+    assert len(edge) == np.ceil(spacing / 0.075 - 1e-9).sum()
+
+
+@pytest.mark.parametrize(
+    "vertices", [[0.0], [0.0, 0.0, 1.0], [0.0, 0.5], [0.0, np.nan, 1.0], [[0.0, 1.0]]]
+)
+def test_vertices_that_do_not_fit_the_interval_are_refused(vertices):
+    spec = BlockSpec(20.0, 40.0, np.array([[0.0, 1.0]]), 0.5, vertices=np.array(vertices))
+    with pytest.raises(MeshError, match="vertices must be"):
+        build_block(spec)
+
+
+INTERVALS = np.array([[-3.0, -1.0], [-0.5, 0.0], [0.0, 0.5], [2.0, 2.25]])
+PLAIN = BlockSpec(50.0, 100.0, INTERVALS, 0.25, 0.2)
+WINDOWED = BlockSpec(50.0, 100.0, INTERVALS, 0.25, 0.2, (-4.0, 4.0, 2.0, 0.3))
+THIN = BlockSpec(50.0, 0.6, INTERVALS, 0.25, 0.2)
+
+
+def random_points(n, spec, seed=0):
+    rng = np.random.default_rng(seed)
+    x = rng.choice([1.0, 0.1], n) * rng.uniform(-spec.half_width, spec.half_width, n)
+    return x, spec.depth * rng.random(n) ** 3
+
+
+def test_distance_is_that_to_the_nearest_interval():
+    x, z = random_points(400, PLAIN)
+    nearest = np.clip(x[:, None], INTERVALS[:, 0], INTERVALS[:, 1])
+    distance = np.hypot(nearest - x[:, None], z[:, None]).min(axis=1)
+    assert uncapped_size(PLAIN, x, z) == pytest.approx(0.25 + 0.2 * distance, rel=1e-14)
+
+
+@pytest.mark.parametrize("spec", [PLAIN, WINDOWED, THIN, *SPECS["own vertices"].values()])
+def test_both_forms_agree(spec):
+    x, z = random_points(500, spec)
+    ends = INTERVALS.ravel() if spec.vertices is None else spec.vertices
+    x = np.concatenate([x, ends, [-spec.half_width, spec.half_width]])
+    z = np.concatenate([z, np.zeros(len(ends) + 2)])
+    size = point_size(spec)
+    one_by_one = [size(*point) for point in zip(x.tolist(), z.tolist(), strict=True)]
+    accuracy = 1e-14 if spec.vertices is None else 1e-12
+    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=accuracy)
+
+
+@pytest.mark.parametrize("spec", [PLAIN, WINDOWED])
+def test_grows_no_faster_than_asked_for(spec):
+    x, z = random_points(2000, spec, seed=1)
+    step = np.random.default_rng(2).normal(scale=0.5, size=(2, len(x)))
+    change = np.abs(wanted_size(spec, x + step[0], z + np.abs(step[1])) - wanted_size(spec, x, z))
+    assert (change <= spec.growth * np.hypot(*step) + 1e-12).all()
+    assert (change > 0.9 * spec.growth * np.hypot(*step)).any()
+
+
+def test_window_caps_the_size_and_nothing_is_larger_for_it():
+    x, z = random_points(4000, WINDOWED, seed=3)
+    windowed, plain = wanted_size(WINDOWED, x, z), wanted_size(PLAIN, x, z)
+    inside = (np.abs(x) <= 4.0) & (z <= 2.0)
+    assert inside.any()
+    assert windowed[inside].max() <= 0.3
+    assert (windowed <= plain).all()
+    assert (windowed[~inside] > 0.3).any()
+    assert wanted_size(WINDOWED, 7.0, 6.0) == pytest.approx(0.3 + 0.2 * 5.0)
+
+
+def test_thin_block_caps_the_size_and_cuts_the_edges_into_whole_parts():
+    assert largest_size(THIN) == pytest.approx(0.15)
+    assert largest_size(BlockSpec(0.5, 100.0, np.array([[-0.1, 0.1]]), 0.1)) == 0.25  # narrow
+    assert edges_per_size(THIN) == 2
+    assert surface_edge(THIN) == 0.125
+    assert wanted_size(THIN, 40.0, 0.5) == pytest.approx(0.15)
+    assert edges_per_size(PLAIN) == 1
+
+
+def test_an_edge_that_just_fits_is_not_cut():
+    for depth in (0.7, 1.1, 3.3):
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4)) == 1
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 1.01)) == 2
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 3)) == 3
+
+
+def spec(half_width, depth, intervals, size, growth=0.2):
+    return BlockSpec(half_width, depth, np.array(intervals), size, growth)
+
+
+def test_integral_of_a_constant_size_is_exact():
+    block = spec(3.0, 2.0, [[-1.0, 1.0]], 0.1, growth=0.0)
+    box = [-3.0, 3.0, 0.0, 2.0]
+    assert sum_of_integrals(block, [box], [1.0]) == pytest.approx(12.0 / 0.01, rel=1e-12)
+    assert sum_of_integrals(block, [[-3.0, 3.0, 0.0, 0.0]], [1.0]) == pytest.approx(60.0, rel=1e-12)
+
+
+def test_integrals_of_a_linear_size():
+    """Along a side, and over the block."""
+    block, far = spec(50.0, 1000.0, [[-50.0, 50.0]], 0.1), 0.1 + 0.2 * 100.0  # below it is capped
+    side = sum_of_integrals(block, [[50.0, 50.0, 0.0, 100.0]], [1.0])
+    assert side == pytest.approx(np.log(far / 0.1) / 0.2, rel=1e-3)
+    whole = sum_of_integrals(block, [[-50.0, 50.0, 0.0, 100.0]], [1.0])
+    assert whole == pytest.approx(100.0 * (1.0 / 0.1 - 1.0 / far) / 0.2, rel=2e-2)
+
+
+def test_blocks_too_large_to_build_are_estimated():
+    assert estimate_unknowns(spec(0.2, 1.0, [[-0.1, 0.1]], 1e-6)) > 1e6
+    assert estimate_unknowns(spec(1000.0, 1e-2, [[-1.0, 1.0]], 0.01)) > 1e7
+
+
+@pytest.mark.parametrize(
+    ("depth", "size", "words"),
+    [
+        (-1.0, 0.1, "depth"),
+        # each halving of the boxes doubles them: it would take all memory
+        (1.0, 1e-12, r"elements of 1e-12 m in a body of 1 m are too many"),
+    ],
+)
+def test_what_is_beyond_counting_is_refused(depth, size, words):
+    with pytest.raises(MeshError, match=words):
+        estimate_unknowns(spec(1.0, depth, [[-0.5, 0.5]], size))

@@ -1,13 +1,12 @@
 """The .msh file: read by meshio and gmsh as written."""
 
 import json
-import subprocess
-import sys
 import warnings
 
 import meshio
 import numpy as np
 import pytest
+from scenes import python
 
 from meshes.block import BlockSpec, real_points
 from meshes.build import build_block
@@ -88,7 +87,7 @@ print(json.dumps({{
         gmsh.model.mesh.getElementsByType(9)[0], "minDetJac")),
 }}))
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = python("-c", code)
     answer = json.loads(done.stdout.splitlines()[-1])
     assert not [line for line in answer["log"] if not line.startswith("Info")]
     assert answer["names"] == ["body", "bottom", "left", "right", "top"]

@@ -1,20 +1,25 @@
-"""What a terminal gets and a pipe does not: colour, progress; and what a shell may complete."""
+"""What a command finds around it: a terminal or a pipe, modules in the working folder, variables,
+strange titles; and what a shell may complete."""
 
+import io
+import json
 import os
 import pty
 import re
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
-from comparisons.cli import app
+from comparisons.cli import app, main
 from comparisons.commands import arguments
+from comparisons.output.result_json import content_of, result_of
 from comparisons.scenes.files import scene_names
 
+pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process
 SCENE = """
 title = "Seen"
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
@@ -54,11 +59,8 @@ def in_terminal(folder: Path, **more: str) -> str:
 
 def in_pipe(*command: str, folder: Path, **more: str) -> str:
     """What it says where both its outputs are piped: nothing to standard error."""
-    done = subprocess.run(
-        [sys.executable, *command], cwd=folder, env=environment(**more), capture_output=True,
-        text=True, check=True
-    )  # fmt: skip
-    assert done.stderr == ""
+    done = python(*command, cwd=folder, env=environment(**more))
+    assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
 
 
@@ -121,3 +123,76 @@ def test_every_command_has_json():
         if not any("--json" in option.opts for option in command.params)
     }
     assert without == set()
+
+
+MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
+SMALL = """
+roller = {radius = 0.01, rigid = true}
+body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
+load = {hertz_peak_pressure = 1e9}
+resolution = {levels = 2}
+stress = {points = [12, 6]}
+"""
+# The mesher and a process beside, as a run starts them.
+PROGRAM = """
+import numpy as np
+from comparisons.common.processes import ProcessWorker
+from comparisons.common.tasks import Tasks, called
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+if __name__ == "__main__":
+    build_block(BlockSpec(1.0, 1.0, np.array([[-0.5, 0.5]]), 0.25))
+    with Tasks(ProcessWorker) as tasks:
+        tasks.add("length", called, len, "abc")
+        print("done" if tasks.result("length") == 3 else "")
+"""
+
+
+def test_no_module_of_the_working_folder_is_run(tmp_path):
+    work = tmp_path / "work"
+    work.mkdir()
+    for name in MODULES:
+        (work / f"{name}.py").write_text(f"open({str(tmp_path / name)!r}, 'w')")
+    (tmp_path / "program.py").write_text(PROGRAM)
+    done = python(tmp_path / "program.py", cwd=work, PYTHONSAFEPATH="1")
+    assert done.stdout == "done\n", done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"work", "program.py"}
+
+
+def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
+    title = "=1+2\x1b]0;owned\x07\x9b31m"
+    result = content_of(result_of(smooth_outcome))
+    result = result | {"scene": result["scene"] | {"title": title}}
+    (tmp_path / "result.json").write_text(json.dumps(result))
+    texts = []
+    for option in ((), ("--csv",), ("--json",)):
+        assert main(["table", str(tmp_path), *option]) == 0
+        texts.append(capsys.readouterr().out)
+    _, printed, as_json = texts
+    for text in texts:
+        assert all(c.isprintable() or c == "\n" for c in text)
+    assert "'=1+2\\x1b]0;owned" in printed
+    assert json.loads(as_json)[0]["title"] == title
+
+
+def test_a_scene_need_not_be_named_in_utf_8(tmp_path, monkeypatch):
+    (tmp_path / os.fsdecode(b"sc\xe9ne.toml")).write_text(SMALL)
+    scene, out = os.fsdecode(b"sc\xe9ne.toml"), os.fsdecode(b"r\xe9sultats")
+    words = ["-m", "comparisons.cli", "run", scene, "--models", "half-plane"]
+    done = python(*words, cwd=tmp_path, PYTHONSAFEPATH="1")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "results/sc\ufffdne/report.html").exists()
+    summary = os.fsdecode(b"\xe9.html")
+    monkeypatch.chdir(tmp_path)
+    for words in (
+        ["run", scene, "--models", "half-plane", "--out", out],
+        ["rerun", out],
+        ["table", out],
+        ["report", out, "--summary", summary],
+    ):
+        # as the command opens its own
+        stdout = io.TextIOWrapper(io.BytesIO(), "utf-8", "backslashreplace")
+        with redirect_stdout(stdout):
+            assert main(words) == 0, words
+    assert b"r%E9sultats/report.html" in (tmp_path / summary).read_bytes()

@@ -2,13 +2,12 @@
 
 import json
 import os
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from time import time
 
 import pytest
+from scenes import python
 
 from comparisons.common.errors import InputError
 from comparisons.common.files import DAY, check_writable, claim, claimed, published, unfinished
@@ -157,7 +156,7 @@ def test_what_a_killed_run_left_is_hidden_and_goes_after_a_day(tmp_path, exists)
     out = tmp_path / "out"
     if exists:
         out.mkdir()
-    subprocess.run([sys.executable, "-c", KILLED, out], check=False, cwd=Path(__file__).parents[3])
+    python("-c", KILLED, out)
     assert not (out / "result.json").exists() and not (tmp_path / "page.html").exists()
     [scratch] = tmp_path.rglob("*.part-*")
     for age in (0.0, 2.0 * DAY):

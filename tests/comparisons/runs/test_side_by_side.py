@@ -1,12 +1,9 @@
 """A run in several processes: the figures of one process, to the last bit."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
-from scenes import PROJECT, without_cost
+from scenes import python, without_cost
 
 SCENE = """
 roller = {radius = "8 mm", rigid = true}
@@ -48,14 +45,7 @@ def result(folder: Path, cores: int) -> dict:
     """result.json of a run on so many cores."""
     folder.mkdir()
     (folder / "scene.toml").write_text(SCENE)
-    environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [sys.executable, "-c", RUN.format(cores=cores)],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-    )
+    done = python("-c", RUN.format(cores=cores), cwd=folder, OMP_NUM_THREADS="1")
     assert done.returncode in (0, 1, 4), done.stderr
     assert len((folder / "started").read_text()) == cores
     return json.loads((folder / "out/result.json").read_text())

@@ -3,15 +3,13 @@
 import copy
 import datetime
 import json
-import subprocess
-import sys
 from decimal import Decimal
 
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from scenes import PROJECT, resolved
+from scenes import python, resolved
 
 from analytic.material import Material
 from comparisons.common.errors import SceneError
@@ -243,13 +241,8 @@ HEAVY = {"analytic.contact", "comparisons.models", "fem", "dolfinx", "scipy", "p
 
 def test_reading_a_scene_loads_no_physics():
     """Nor anything else that takes time: a solid's constants have units of our own table."""
-    code = (
-        "import sys, comparisons; comparisons.Scene.read('ground-running-in'); print(*sys.modules)"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
-    )
-    loaded = set(done.stdout.split())
+    code = "import sys, comparisons; comparisons.Scene.read('ground-running-in'); "
+    loaded = set(python("-c", f"{code}print(*sys.modules)").stdout.split())
     assert "comparisons.scenes.scene" in loaded
     assert loaded.isdisjoint(HEAVY)
 

@@ -1,4 +1,5 @@
-"""The compliance operator: symmetric, positive, and the half-plane's up to a datum."""
+"""The compliance operator: symmetric, positive, and the half-plane's up to a datum; its columns
+shifted."""
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import hat_sign
 from fem.body.elasticity import Support, elastic_body
+from fem.compliance.condensed import ShiftInvariant
 from fem.compliance.operator import FiniteElementCompliance
 
 MATERIAL = Material(2.0, 0.3)
@@ -87,3 +89,14 @@ def test_coupling_is_the_half_planes_up_to_the_mesh(fine):
     distance = np.subtract.outer(np.arange(COUNT), np.arange(COUNT))
     exact = beta * PITCH**2 / modulus * hat_sign(distance)
     assert np.abs(raised - exact).max() < 2e-2 * exact.max()
+
+
+def test_shifted_columns_are_those_of_any_compliance_that_does_not_depend_on_the_place():
+    count, far = 40, np.arange(-39.0, 40.0)
+    place = np.arange(count)
+    exact = (np.exp(-(far**2) / 50.0) + 0.1 * np.arctan(far))[place[:, None] - place + count - 1]
+    shifted = ShiftInvariant(lambda hats: exact[:, hats], count, place[10:30])
+    pressure = np.random.default_rng(1).uniform(size=count)
+    np.testing.assert_allclose(shifted @ pressure, exact @ pressure, rtol=1e-12)
+    block = np.ix_(place[3:9], place[20:])
+    np.testing.assert_allclose(shifted[block], exact[block], rtol=1e-12)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 from fem.solver.compilation import (
     STALE_SECONDS,
@@ -169,9 +169,7 @@ assert pkg_resources.parse_version("1.10") > pkg_resources.parse_version("1.9")
 import pkg_resources
 print(hasattr(pkg_resources, "WorkingSet"))
 """
-    process = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", script], cwd=PROJECT, capture_output=True, text=True
-    )
+    process = python("-W", "ignore", "-c", script)
     assert process.stdout == "True\n", process.stderr
 
 

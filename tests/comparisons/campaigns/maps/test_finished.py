@@ -1,4 +1,5 @@
-"""The maps that come with the project: complete, made by the command that they name, true."""
+"""The maps that come with the project: complete, made by the command that they name, true; shown,
+and scenes of the user's marked on them."""
 
 import shlex
 from functools import cache
@@ -6,11 +7,18 @@ from functools import cache
 import pytest
 
 from comparisons.campaigns.grid import FAILED, SOLVED
-from comparisons.campaigns.maps.map import FINISHED, finished_map, request_of
+from comparisons.campaigns.maps.groups import scene_with
+from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names, request_of
+from comparisons.campaigns.maps.mark import mark_of, problem_named, unlike
 from comparisons.campaigns.maps.picture import map_figure
 from comparisons.campaigns.maps.point import TOLERANCES, solve_point
+from comparisons.cli import main
+from comparisons.common.progress import no_progress
 from comparisons.common.provenance import versions
 from comparisons.drawing.style import svgs
+from comparisons.models.finite_element.level import problem_of_approach
+from comparisons.models.posing import problem_of
+from comparisons.scenes.scene import Origin, Scene
 
 # A point of each that costs little and whose error is well above its uncertainty: column, row.
 CHEAP = {
@@ -83,3 +91,102 @@ def test_pictures_show_the_points(finished):
         pytest.skip("another matplotlib draws another file")
     drawn = svgs({"map.svg": lambda: map_figure(content)})
     assert (FINISHED / f"{name}.svg").read_text(encoding="utf-8") == drawn["map.svg"]
+
+
+STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
+ON_A_LAYER = {
+    "roller": {"radius": 0.01, "rigid": True},
+    "load": {"per_length": 1e5},
+    "body": {**STEEL, "thickness": 1e-3},
+}
+
+
+@pytest.mark.parametrize("name", finished_names())
+def test_a_point_of_a_map_is_marked_where_it_is(name):
+    """The groups that a point's scene was given are those that are read off it; nor is that scene
+    any other than the map's."""
+    content = finished_map(name)
+    point = content["points"][3 * len(content["x"]["values"]) + 4]
+    groups = {content[axis]["group"]: point[axis] for axis in "xy"}
+    posed = problem_of(scene_with(Scene.of(content["scene"], Origin("mine")), groups))
+    assert mark_of(content, posed)[1] == pytest.approx((point["x"], point["y"]), rel=0.01)
+    assert unlike(content, posed) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "changes", "why"),
+    [
+        ("modulus-coating", "roller", {"youngs_modulus": 300e9}, "has a roller of another stiff"),
+        ("modulus-coating", "coating", {"poissons_ratio": 0.2}, "has a coating of Poisson's ratio"),
+        ("curvature-thickness", "roller", {"rigid": False, **STEEL}, "has an elastic roller"),
+        ("curvature-thickness", "body", {"poissons_ratio": 0.4}, "has Poisson's ratio 0.4"),
+        ("curvature-thickness", "coating", {"thickness": 1e-6, **STEEL}, "has a coating"),
+        ("curvature-thickness", "load", {"friction": [0.1]}, "slides"),
+        ("curvature-thickness", "body", {"base": "frictionless"}, "lies on another base"),
+        ("curvature-thickness", "body", {"law": "hencky"}, "has another law of elasticity"),
+    ],
+)
+def test_what_a_scene_differs_by_from_the_map_s(name, section, changes, why):
+    content = finished_map(name)
+    tables = {"stress": {}} | (content["scene"] if name == "modulus-coating" else ON_A_LAYER)
+    tables = tables | {section: tables.get(section, {}) | changes}
+    assert unlike(content, problem_of(Scene.of(tables, Origin("mine")))).startswith(why)
+
+
+def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("comparisons.campaigns.maps.map.solved_in", None)
+    out = tmp_path / "map"
+    asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
+    assert main([*asked, "--mark", pressed]) == 0
+    said = capsys.readouterr().out
+    assert "model error of the half-plane, contact length: within 1 % at 19, 2 % at 31" in said
+    assert "made by: crosscheck map curvature-" in said
+    assert {path.name for path in out.iterdir()} == {"map.json", "map.svg"}
+    unmarked = (out / "map.svg").read_text()
+    assert main(asked) == 0
+    assert (out / "map.svg").read_text() != unmarked
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("curvature-thickness", "--quantity", "mean_gap"), "--quantity: mean_gap is not on this"),
+        (("modulus-coating", "--mark", "smooth"), "smooth has no coating_modulus_ratio to be mark"),
+        (("slope-wavelength", "--mark", "smooth"), "smooth is smooth, and the map is of a rough"),
+        (("smooth", "--mark", "periodic"), "periodic is rough, and the map is of a smooth surface"),
+        (
+            ("curvature-thickness", "--mark", "smooth"),
+            "smooth lies off the map: its a/t is 0; allowed is 0.05 to 4",
+        ),
+    ],
+)
+def test_what_a_map_does_not_have_is_refused(arguments, said, tmp_path, capsys, monkeypatch):
+    monkeypatch.delattr("comparisons.campaigns.maps.map.solved_in")  # nothing is solved before
+    assert main(["map", *arguments, "--out", str(tmp_path / "map")]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "map").exists()
+
+
+@pytest.fixture
+def pressed(tmp_path) -> str:
+    """A scene of a prescribed approach."""
+    path = tmp_path / "pressed.toml"
+    path.write_text(
+        "[roller]\nradius = 0.01\nrigid = true\n[body]\nyoungs_modulus = 2e9\n"
+        "poissons_ratio = 0.3\nthickness = 1e-3\n[load]\napproach = 4e-6\n"
+        "[resolution]\nelements = 8\nlevels = 2\n"
+    )
+    return str(path)
+
+
+def test_a_prescribed_approach_is_marked_under_its_load(pressed):
+    _, values = mark_of(finished_map("curvature-thickness"), problem_named(pressed))
+    a = problem_of_approach(Scene.read(pressed), no_progress).hertz.half_width
+    assert sorted(values) == pytest.approx([a / 0.01, a / 1e-3])
+
+
+def test_a_mark_of_another_kind_is_told(tmp_path, capsys):
+    out = str(tmp_path / "map")
+    assert main(["map", "slope-wavelength", "--mark", "sinusoid", "--out", out]) == 0
+    said = capsys.readouterr().err
+    assert "--mark: sinusoid has an elastic roller, has another law of elasticity" in said

@@ -1,0 +1,346 @@
+"""Wrong input, alone and together, is answered by one line with what is allowed;
+what is nearly right, by what to type."""
+
+import io
+import json
+import math
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import python
+
+from comparisons.cli import main
+from comparisons.commands.output import show_json
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import surface_of
+
+GOOD = {
+    "title": '"A good scene"',
+    "roller.radius": '"8.2 mm"',
+    "roller.youngs_modulus": '"207 GPa"',
+    "roller.poissons_ratio": "0.3",
+    "body.youngs_modulus": '"207 GPa"',
+    "body.poissons_ratio": "0.3",
+    "load.per_length": '"3.85 N/um"',
+}
+MEASURED = {"profile.file": '"trace.csv"', "profile.x_unit": '"um"', "profile.z_unit": '"um"'}
+# What a measured profile's file may hold.
+TRACE = "x,height\n" + "".join(f"{i},{(i * 7) % 5 / 10}\n" for i in range(40))
+
+
+def toml(changes: dict) -> str:
+    """GOOD with the changes, as a scene file; None takes a field away."""
+    fields = {**GOOD, **changes}.items()
+    return "\n".join(f"{name} = {text}" for name, text in fields if text is not None)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    """The working folder of a run that must never begin to solve, with a scene in it."""
+    solve_scene = "comparisons.runs.run.solve_scene"
+    monkeypatch.setattr(solve_scene, lambda *_: pytest.fail("a wrong scene was solved"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(toml({}))
+    return tmp_path
+
+
+@pytest.fixture
+def complaint(folder, capsys) -> Callable[..., str]:
+    """`complaint(*arguments)`: the one line that the command ends with, after status 2 and without
+    a trace of a result."""
+
+    def line(*arguments: str) -> str:
+        before = {path: path.read_bytes() for path in folder.iterdir()}
+        status = main(list(arguments))
+        out, err = capsys.readouterr()
+        assert status == 2, err
+        assert out == ""
+        assert err.startswith("crosscheck: ") and err.endswith("\n") and err.count("\n") == 1
+        assert {path: path.read_bytes() for path in folder.iterdir()} == before
+        return err.strip()
+
+    return line
+
+
+SINUSOID = {
+    "profile.kind": '"sinusoid"',
+    "profile.wavelength": '"50 um"',
+    "profile.amplitude": '"0.2 um"',
+}
+SELF_AFFINE = {
+    "profile.kind": '"self-affine"',
+    "profile.hurst": "0.8",
+    "profile.rms_slope": "0.03",
+    "profile.samples": "257",
+    "profile.length": '"1 mm"',
+}
+LAYER = {"body.thickness": '"5 mm"'}
+
+# field, what the file says, how the line goes on after "scene.toml: field: "
+VALUES = [
+    (
+        "roller.radius",
+        '"-3 mm"',
+        'is "-3 mm"; allowed is a length above 0: a number in m or "8.2 mm"',
+    ),
+    ("body.poissons_ratio", "0.5", "is 0.5; allowed is a number without unit at least 0 and below"),
+    ("load.friction", "1.6", "is 1.6; allowed is a number without unit at least 0 and at most 1.5"),
+    ("load.friction", "[]", "is an empty list; allowed is"),
+    ("load.friction", "[0, -0.0]", "lists 0 twice"),
+    ("load.friction", "[" + "0.1," * 2000 + "]", "is a list of 2000 values, more than 1000; allow"),
+    ("profile.columns", "[[1, 2], 3]", "holds a list; allowed is one or two columns by name"),
+    ("roller.radius", "inf", "is inf, which is not finite; allowed"),
+    ("roller.radius", "1e-320", "is 1e-320, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
+    ("load.per_length", '"3 kN"', 'is "3 kN", a force: a force per length is "3 kN/mm"; allowed'),
+    ("body.hardness", '"7 gpa"', 'is "7 gpa", and "gpa" is no known unit (did you mean "GPa"?)'),
+    ("roller.radius", "[1, 2]", "is a list; allowed is a length"),
+    ("load.per_length", "1991-06-01", "is a date or time; allowed is a load per length"),
+    ("title", "3", "is 3; allowed is a string"),
+    ("title", '"a\\nb"', "holds a control character; allowed is a string of one line"),
+    ("finite_element.deformation", "3", 'is 3; allowed is "linear" or "finite"'),
+    ("roller.rigid", '"yes"', 'is "yes"; allowed is true or false'),
+    ("resolution.levels", "2.5", "is 2.5; allowed is a whole number from 2 to 6"),
+    ('""', "3", "is no known field; the nearest is"),
+    ("roller.raduis", "1", "is no known field; the nearest is roller.radius"),
+    ("roller.diameter", "1", "is no known field; the nearest is roller.radius"),
+    ("roller.friction", "0.1", "is no known field; the nearest is load.friction"),
+    ("load.force", "1", "is no known field; the nearest is load.per_length, a force per length"),
+    ("frictoin", "0.1", "is no known field; the nearest is load.friction"),
+    ("roller.radius", None, "is missing; allowed is a length above 0"),
+    ("roller.youngs_modulus", None, "is missing; allowed is youngs_modulus with poissons_ratio"),
+    ("load.hertz_peak_pressure", '"1 GPa"', "is given beside per_length; allowed is exactly one"),
+    ("body.base", '"bonded"', "is given for a half-plane, which has none; allowed only with"),
+    ("stress.depth", '"1 a"', 'is "1 a", a time; allowed is a number of half-widths'),
+    (
+        "stress.points",
+        "[200, 2]",
+        "holds 2; allowed is a list of two whole numbers [along x, along z], from 3 to 20000 each",
+    ),
+    ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of two"),
+    ("stress.points", "[20_000, 20_000]", "asks for 400000000 points; allowed is a list"),
+]
+# changes, and how the line goes on after "scene.toml: "
+COMBINATIONS = [
+    (
+        {"tolerance.tau1_max": "0.02"},
+        "tolerance.tau1_max: needs a [stress] section; allowed is contact_length, "
+        "peak_pressure without one",
+    ),
+    ({"tolerence.tau1_max": "0.1"}, "tolerence: is no known section; the nearest is [tolerance]"),
+    (
+        {"body.youngs_modulus": None, "body.young_modulus": "1"},
+        "body.young_modulus: is no known field; the nearest is body.youngs_modulus",
+    ),
+    (
+        {f"roller.{name}": None for name in ("radius", "youngs_modulus", "poissons_ratio")},
+        "roller: is missing; allowed is a section [roller]",
+    ),
+    ({"load.per_length": None, "load": "3"}, "load: is 3; allowed is a section [load]"),
+    (
+        {"load.per_length": None, "load.approach": '"2 um"'},
+        "load.approach: has no meaning on a half-plane, whose displacement has no datum; allowed",
+    ),
+    ({"load.position": '"3 mm"'}, "load.position: is on a smooth body without ends, which is the"),
+    ({"profile.form": '"line"'}, "profile.file: is missing; allowed is file (measured) or kind"),
+    ({**MEASURED, **SINUSOID}, "profile.kind: is given beside file; allowed is one of the two"),
+    (
+        {**MEASURED, "profile.file": '"absent.csv"'},
+        "profile.file: absent.csv: there is no such file",
+    ),
+    (
+        {**MEASURED, "profile.x_unit": '"GPa"'},
+        'profile.x_unit: is "GPa", a pressure; allowed is a unit of length',
+    ),
+    (
+        {**MEASURED, "profile.x_unit": None},
+        'profile.x_unit: is missing; allowed is a unit of length as a string, such as "um", or sp',
+    ),
+    (
+        {**MEASURED, "load.position": '"40 um"'},
+        "load.position: is 4e-05 m; allowed is inside the trace, above 0 m and below 3.9e-05 m",
+    ),
+    (
+        {**SINUSOID, "profile.kind": '"sinus"'},
+        'profile.kind: is "sinus" (did you mean "sinusoid"?); allowed is "sinusoid" or',
+    ),
+    (
+        {**SINUSOID, "profile.wavelength": '"1 nm"', "profile.length": '"1 m"'},
+        "profile: the trace would have 4000001 samples; allowed is a whole number from 8",
+    ),
+    (
+        {**SELF_AFFINE, "profile.rms_height": '"1 um"'},
+        "profile.rms_height: is given beside rms_slope; allowed is exactly one of rms_slope and",
+    ),
+    (
+        {**SELF_AFFINE, "profile.shortest_wavelength": '"1 um"'},
+        "profile: shortest_wavelength 1e-06 m is below two sample spacings",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("changes", "rest"),
+    [*(({field: text}, f"{field}: {rest}") for field, text, rest in VALUES), *COMBINATIONS],
+)
+def test_wrong_fields(folder, changes, rest, complaint):
+    (folder / "scene.toml").write_text(toml(changes))
+    (folder / "trace.csv").write_text(TRACE)
+    line = complaint("run", "scene.toml")
+    assert line.startswith(f"crosscheck: scene.toml: {rest}")
+
+
+def test_every_base_scene_is_right_without_its_mistake(folder):
+    """Otherwise the cases above could fail for another reason than the one they state."""
+    (folder / "trace.csv").write_text(TRACE)
+    for changes in ({}, MEASURED, SINUSOID, SELF_AFFINE, LAYER):
+        (folder / "scene.toml").write_text(toml(changes))
+        assert Scene.read("scene.toml").name == "scene"
+
+
+WIDE = ("5", "x", "500%", "nan")
+MISSPELT = ("mine.tml", "mine", "mne.toml")
+PLACES = (["run", "smooth", "--out"], ["report", ".", "--summary"], ["verify", "--junit"])
+FILES = {
+    "empty": (b"", "scene.toml: is empty; allowed are sections"),
+    "binary": (b"[roller]\n\x80\x81\xff", "is not text (byte 9 is not UTF-8); allowed is a TOML"),
+    "not TOML": (b"[roller]\nradius = 8.2 mm\n", "line 2, column"),
+    "field twice": (b"[roller]\nradius = 1\nradius = 2\n", "field is given twice (at line 3,"),
+    "a profile": (b"x_um,height_um\n0,0.0\n1,1.4\n", "is not TOML: "),
+    "nested deep": (b"a = " + b"[" * 5000 + b"]" * 5000, "is beyond what TOML may hold"),
+    "large": (b"# " + b"a" * 2**20, "allowed are 1048576 for a scene"),
+}
+
+
+@pytest.mark.parametrize(("content", "fragment"), FILES.values(), ids=FILES)
+def test_wrong_file(folder, content, fragment, complaint):
+    (folder / "scene.toml").write_bytes(content)
+    assert fragment in complaint("run", "scene.toml", "--json")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["run", "smoth"], "smoth: is neither a file nor a scene; the nearest scene is smooth, al"),
+        (["run", "absent.toml"], "absent.toml: there is no such file"),
+        (["run", "/dev/null"], "is not a regular file; allowed is a TOML file"),
+        (["run", ""], "allowed is a scene's file or name"),
+        *((["run", name], "there is no such file, but mine.toml; allowed") for name in MISSPELT),
+        *(([*words, ""], "is empty; allowed is a path") for words in PLACES),
+        (["run", "smooth", "--out="], "is empty; allowed is a path"),
+        (["run", "smooth", "--out", " "], "is empty; allowed is a path"),
+        (["map", "smooth", "--points", "５x５"], "--points: is"),
+        (["map", "smooth", "--x", ""], "--x: is ''"),
+        (["map", "smooth", "--y", ""], "--y: is ''"),
+        (["map", "smooth", "--quantity", ""], "--quantity: there is no "),
+        (["map", "smooth", "--mark", ""], "the scene has no name"),
+        (["map", "smooth", "--x", "a_over_width=１:2"], "--x: is"),
+        (["map", "smooth", "--workers", "²"], "--workers: is '²'"),
+        (["sweep", "smooth", "--over", "load=1e5:2e5:３"], "how many values"),
+        (["run", "smooth", "--tolerance", "０.1"], "--tolerance: is"),
+        *(
+            (
+                ["run", "mine.toml", "--tolerance", wrong],
+                f"--tolerance: is {wrong}; allowed is a number",
+            )
+            for wrong in ("5", "x", "500%", "nan")
+        ),
+        (["init", "trace.csv", "--radius", "８"], "--radius: is"),
+        (["init", "."], ".: is a directory; a profile is a file"),
+        (["run", "mine.toml", "--plan", "--json"], "run: allowed is one of --plan, --json"),
+        (["table", ".", "--csv", "--json"], "table: allowed is one of --csv, --json"),
+        (["deck", "mine.toml", "--for", "ansys"], "'--for': 'ansys' is not one of 'calculix', "),
+    ],
+)
+def test_what_no_command_can_do_is_refused(folder, complaint, arguments, said):
+    (folder / "result.json").write_text("mine")
+    assert said in complaint(*arguments)
+
+
+def test_control_characters_of_a_name_are_shown_harmless(complaint):
+    line = complaint("run", "\x1b[31m.toml")
+    assert "\x1b" not in line and r"\x1b[31m.toml" in line
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "{}"],
+        ["run", "smooth", "--models", "half-plane", "--out", "{}"],
+        ["run", "smooth", "--models", "half-plane", "--junit", "{}"],
+        ["init", "{}"],
+        ["table", "{}"],
+    ],
+)
+def test_a_name_that_no_file_can_have_is_wrong_input(folder, complaint, arguments):
+    said = complaint(*(word.format(5000 * "x") for word in arguments))
+    assert "xxxx" in said and len(said) < 1000
+
+
+def test_a_scene_does_not_replace_its_profile(folder, complaint):
+    (folder / "trace.toml").write_text(TRACE)
+    assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
+    assert "is the profile itself" in complaint("init", "trace.toml", "--force")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
+@pytest.mark.parametrize(("closed", "words"), [(">&-", ""), ("2>&-", "smooth-sliding")])
+def test_a_closed_stream_is_no_defect(closed, words):
+    code = f'"{sys.executable}" -m comparisons.cli scenes {closed}'
+    done = python("-c", f"import os, sys; sys.exit(os.system({code!r}) >> 8)")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert words in done.stdout
+
+
+def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path):
+    (tmp_path / "trace.csv").write_text("x [µm],z [µm]\n" + TRACE.partition("\n")[2])
+    done = python(
+        "-m", "comparisons.cli", "init", "trace.csv", cwd=tmp_path, PYTHONIOENCODING="ascii"
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert r'by "x [\xb5m],z [\xb5m]" in the file' in done.stdout
+
+
+def test_json_is_json_in_every_encoding(monkeypatch):
+    bytes_ = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(bytes_, "latin-1", "backslashreplace"))
+    show_json({"title": "Ra → µm"})
+    sys.stdout.flush()
+    assert json.loads(bytes_.getvalue()) == {"title": "Ra → µm"}
+
+
+@pytest.mark.parametrize("content", [b"x,z\n0,1\n1,2\n", b"\xff\xfe\x00", b"0,1\n" * 300_000])
+def test_a_trace_in_the_place_of_a_scene_is_told_init(folder, complaint, content):
+    (folder / "my trace.txt").write_bytes(content)
+    said = complaint("run", "my trace.txt")
+    assert "is no scene; of a measured trace `crosscheck init 'my trace.txt'` makes one" in said
+
+
+def test_a_tolerance_may_be_a_percentage(tmp_path, monkeypatch, capsys, undrawn):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(toml({"tolerance.peak_pressure": "0.5"}))
+    assert main(["run", "mine.toml", "--models", "half-plane", "--json", "--tolerance", "5%"]) == 0
+    assert '"peak_pressure": 0.05' in capsys.readouterr().out
+
+
+def test_a_plan_says_levels_and_seconds_and_solves_nothing(folder, capsys):
+    (folder / "mine.toml").write_text(toml({"load.per_length": '"0.5 N/um"'}))
+    assert main(["run", "mine.toml", "--plan"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("planned: about ") and " s on " in out and "\n3 levels (" in out
+    assert "skipped: coupling: there is no friction" in out
+    assert [path.name for path in folder.iterdir()] == ["mine.toml"]
+
+
+def test_units_come_from_a_header_that_names_them(folder, complaint):
+    rows = "".join(f"{0.5 * k},{0.2 * math.sin(0.1 * k)}\n" for k in range(2000))
+    (folder / "mine.toml").write_text(toml({"profile.file": '"trace.csv"'}))
+    (folder / "trace.csv").write_text("x [um],z [nm]\n" + rows)
+    profile = surface_of(Scene.read("mine.toml")).profile
+    assert np.ptp(profile.x) == pytest.approx(999.5e-6)
+    assert np.ptp(profile.height) == pytest.approx(0.4e-9, rel=0.05)
+    (folder / "trace.csv").write_text("position,height\n" + rows)
+    assert "profile.x_unit: is missing; allowed is" in complaint("run", "mine.toml")
