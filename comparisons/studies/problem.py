@@ -14,13 +14,14 @@ from comparisons.judging.effects.catalogue import with_effects
 from comparisons.judging.study import MODEL_ERROR, Solved, Study
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.forecast import forecast
+from comparisons.scenes.surface import ProfileInfo
 
 NAME, ASSUMED = "problem", "assumed"  # the study; its statements of what models assume
 HERTZ, SCENE, PRESSED, STANDARD = "hertz", "scene", "as pressed", "standard"  # sources
 QUANTITIES = {
-    "half_width": Quantity("half-width of the smooth contact", "m"),
-    "peak_pressure": Quantity("peak pressure of the smooth contact", "Pa"),
-    "reduced_modulus": Quantity("combined modulus", "Pa"),
+    "half_width": Quantity("half-width a of the smooth contact", "m"),
+    "peak_pressure": Quantity("peak pressure p₀ of the smooth contact", "Pa"),
+    "reduced_modulus": Quantity("combined modulus E*", "Pa"),
     "tau1_max": Quantity("largest τ₁ of the smooth contact", "Pa"),
     "tau1_max_depth": Quantity("its depth", "m"),
     "a_over_thickness": Quantity("half-width over thickness, a/t"),
@@ -68,15 +69,21 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         peaks = [f for f in known if f.quantity == "peak_pressure"]
         over = {"peak_pressure_over_hardness": max(f.value for f in peaks) / hardness}
         figures += figures_of(NAME, SCENE, over, _largest(peaks))
-    if info is not None:  # as pressed, and by the standard
-        filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
-        figures += figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
-        if info.standard is not None:
-            figures += figures_of(NAME, STANDARD, asdict(info.standard))
+    figures += figures_of_surface(info)
     levels = [asdict(level) for level in forecast(problem, solved.plan).levels]
     columns = columns_of(levels, {"pitch": "m", "seconds": "s", "memory": "byte"})
     planned = Series("planned levels", columns, is_account=True)
     return Findings(tuple(figures), (planned,), tuple(_statements(solved, before)))
+
+
+def figures_of_surface(info: ProfileInfo | None) -> list[Figure]:
+    """Roughness as pressed and, where it is known, by the standard; none of a smooth body."""
+    if info is None:
+        return []
+    filters = {"cutoff": info.cutoff, "short_cutoff": info.short_cutoff}
+    figures = figures_of(NAME, PRESSED, asdict(info.roughness) | filters)
+    standard = {} if info.standard is None else asdict(info.standard)
+    return figures + figures_of(NAME, STANDARD, standard)
 
 
 def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:

@@ -13,11 +13,13 @@ from analytic.surface.roughness import bearing_curve, power_spectrum
 from comparisons.campaigns.init.guess import ProfileFields
 from comparisons.common.numbers import scale_of, with_unit
 from comparisons.drawing.style import WIDE, drawing, figure, svg
-from comparisons.output.page.tables.problem import STANDARD, roughness_notes, roughness_rows
+from comparisons.drawing.tables import figure_table
+from comparisons.output.page.tables.problem import roughness_notes
 from comparisons.output.plausibility import warnings_about_surface
 from comparisons.output.terminal import PLAIN, plain_table, plain_text
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface
+from comparisons.studies.problem import QUANTITIES, figures_of_surface
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,8 +72,8 @@ def init_table(made: FirstScene) -> "RenderableType":
     even = most - least <= UNEVEN * info.spacing
     apart = _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
     read += f"{_length(info.length)} long, {apart} apart"
-    numbers = "as pressed", STANDARD
-    table = plain_table("roughness", numbers=numbers, rows=roughness_rows(info))
+    shown = figure_table(figures_of_surface(info), QUANTITIES)
+    table = plain_table("roughness", numbers=shown.head[1:], rows=shown.rows)
     guesses = (
         f"{name} = {json.dumps(made.profile.fields[name], ensure_ascii=False)}: {because}"
         for name, because in made.profile.reasons.items()

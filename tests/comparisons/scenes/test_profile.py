@@ -17,7 +17,8 @@ from analytic.surface.roughness_standard import standard_roughness
 from analytic.surface.synthetic import ground_texture, self_affine
 from analytic.surface.turned import turned, turned_height
 from comparisons.common.errors import SceneError
-from comparisons.output.page.tables.problem import roughness_rows
+from comparisons.drawing.blocks import TextTable
+from comparisons.output.page.tables.problem import problem_items
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SINUSOID_REACH, SINUSOID_WAVES, SceneSurface, surface_of
 
@@ -322,5 +323,6 @@ def test_the_result_has_the_surface_as_pressed_and_by_the_standard(finish):
     assert standard == outcome.problem.surface.info.standard.rq
     cutoffs = outcome.figures.of(study="problem", quantity="cutoff")
     assert [figure.value for figure in cutoffs] == [0.8e-3, 0.8e-3]
-    [ra, *_] = roughness_rows(outcome.problem.surface.info)
+    [table] = [item for item in problem_items(outcome) if isinstance(item, TextTable)]
+    [ra] = [row for row in table.rows if row[0] == "Ra"]
     assert ra[2] == f"{1e9 * outcome.problem.surface.info.standard.ra:#.4g} nm"

@@ -1,14 +1,9 @@
 """The problem in figures: what a reader needs to set it up again by hand."""
 
-from collections.abc import Callable
-from functools import partial
-
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS
 from comparisons.common.numbers import (
-    UNKNOWN,
     as_written,
-    decimal,
     listed,
     plain,
     significant,
@@ -16,6 +11,7 @@ from comparisons.common.numbers import (
 )
 from comparisons.drawing.blocks import Heading, Names, TextTable
 from comparisons.drawing.curves import hertz_text
+from comparisons.drawing.tables import facts_of, figure_table
 from comparisons.judging.study import Run
 from comparisons.models.assumptions import support_text, yielding_text
 from comparisons.models.problem import Problem
@@ -41,8 +37,8 @@ def problem_sheet(run: Run) -> dict[str, Rows]:
     return {
         "Geometry": _geometry(problem.scene, surface),
         "Materials": _materials(problem),
-        "Load": _load(problem),
-        "Dimensionless groups": _groups(run),
+        "Load": _load(run),
+        "Dimensionless groups": _figures(run, asked.SCENE),
     }
 
 
@@ -51,8 +47,8 @@ def problem_items(run: Run) -> list[Heading | Names | TextTable]:
     geometry, *others = [(Heading(name), Names(rows)) for name, rows in problem_sheet(run).items()]
     info, roughness = run.problem.surface.info, ()
     if info is not None:
-        before = "" if run.problem.surface.run_in is None else " before running-in"
-        table = TextTable("", ("", "as pressed", f"{STANDARD}{before}"), (*roughness_rows(info),))
+        before = "" if run.problem.surface.run_in is None else "The standard's: before running-in"
+        table = figure_table(asked.figures_of_surface(info), asked.QUANTITIES, before)
         roughness = Heading("Roughness"), table, Names(roughness_notes(info))
     return [item for items in (geometry, roughness, *others) for item in items]
 
@@ -129,37 +125,6 @@ def in_mm(cutoff: float) -> str:
     return f"{plain(1e3 * cutoff)} mm"
 
 
-# Name, of the trace as pressed and by the standard, and how it is written.
-_metres, _places = partial(with_unit, unit="m"), partial(decimal, places=2)
-_three = partial(significant, digits=3)
-ROUGHNESS = (
-    ("Ra", "ra", "ra", _metres),
-    ("Rq", "rq", "rq", _metres),
-    ("Rz", None, "rz", _metres),
-    ("Rt", "rt", "rt", _metres),
-    ("Rsk", "rsk", "rsk", _places),
-    ("Rku", "rku", "rku", _places),
-    ("Rdq, rms slope", "rms_slope", "rdq", _three),
-    ("largest slope", "max_slope", None, _three),
-    ("RSm", None, "rsm", _metres),
-    ("cut-off", None, "cutoff", in_mm),
-    ("short cut-off", None, "short_cutoff", _metres),
-)
-
-
-def roughness_rows(info: ProfileInfo) -> list[tuple[str, str, str]]:
-    """ROUGHNESS, with what is known of it."""
-
-    def cell(source: object, field: str | None, text: Callable[[float], str]) -> str:
-        value = getattr(source, field) if source and field else None
-        return UNKNOWN if value is None else text(value)
-
-    return [
-        (name, cell(info.roughness, pressed, text), cell(info.standard, standard, text))
-        for name, pressed, standard, text in ROUGHNESS
-    ]
-
-
 def roughness_notes(info: ProfileInfo) -> Rows:
     """What both columns of the same are of."""
     off = "" if info.form.kind == "none" else f" without its {info.form.kind}"
@@ -190,7 +155,7 @@ def _materials(problem: Problem) -> Rows:
         *([("roller as a disc", support_text(scene.roller))] if has_disc else []),
         ("body", solid_text(scene.body)),
         *([] if scene.coating is None else [(COATING, coating_text(scene.coating))]),
-        ("combined modulus E*", with_unit(problem.modulus, "Pa")),
+        *([("combined modulus E*", with_unit(problem.modulus, "Pa"))] if scene.periodic else []),
         ("Dundurs' β", significant(problem.dundurs_beta, 3)),
     ]
     if scene.body.hardness is not None:
@@ -218,8 +183,8 @@ def coating_text(coating: CoatingSection) -> str:
     return f"{as_written(coating.thickness, 'm')} thick, {solid_text(coating)}"
 
 
-def _load(problem: Problem) -> Rows:
-    scene, hertz = problem.scene, problem.hertz
+def _load(run: Run) -> Rows:
+    scene, hertz = run.problem.scene, run.problem.hertz
     label, unit = LOADS[scene.load.kind]
     rows = [(f"{label} (given)", as_written(scene.load.value, unit))]
     if scene.load.kind != "per_length":
@@ -228,12 +193,9 @@ def _load(problem: Problem) -> Rows:
     if scene.periodic:
         rows.append(("period 2a", with_unit(2.0 * hertz.half_width, "m")))
         return [*rows, ("mean pressure p₀", with_unit(scene.load.value, "Pa"))]
-    rows.append(("Hertz half-width a", with_unit(hertz.half_width, "m")))
-    rows.append(("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")))
-    largest = f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}"
-    return [*rows, ("largest τ₁ without friction, smooth", largest)]
+    return rows + _figures(run, asked.HERTZ)
 
 
-def _groups(run: Run) -> Rows:
-    groups = run.figures.of(study=asked.NAME, source=asked.SCENE)
-    return [(asked.QUANTITIES[f.quantity].label, significant(f.value, 3)) for f in groups]
+def _figures(run: Run, source: str) -> Rows:
+    known = run.figures.of(study=asked.NAME, source=source)
+    return facts_of(known, asked.QUANTITIES, {source: ""})
