@@ -69,9 +69,13 @@ class Coupling:
 
 
 def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
-    """Of the half-plane as far as it is refined, computed once."""
+    """Of the half-plane as far as it is refined, computed once; none where there is no coupling."""
     levels = len(solved.runs["half_plane"].levels)
-    return tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
+    return (
+        ()
+        if not solved.plan.coupling
+        else tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
+    )
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:

@@ -30,11 +30,10 @@ class EffectSelection:
 
     contained: frozenset[str]  # the scene's own finite elements have it
     added: frozenset[str]  # computed beside, for the verdict
-    negligible: dict[str, Sizes]  # too small to matter, each with its estimate
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
-    found: frozenset[str] = frozenset()  # of the negligible, those that were computed
+    found: frozenset[str] = frozenset()  # those that were computed, and turned out negligible
     # [s] budget.time in which finite strain of what flows can be computed, where it is too short
     time: float | None = None
 
@@ -42,6 +41,13 @@ class EffectSelection:
     def whole(self) -> frozenset[str]:
         """Effects of the whole model, which the verdict is about."""
         return self.contained | self.added
+
+    @property
+    def negligible(self) -> frozenset[str]:
+        """Effects that are too small to matter, by their estimates."""
+        larger = self.whole | self.impossible.keys() | ({LAW} if self.laws else set())
+        larger |= {COUPLED} if self.whole & set(NONLINEAR) else set()  # these bodies have it
+        return frozenset(self.estimates) - larger
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":
         """The same without some of the added effects, for a reason; other laws of elasticity take
@@ -60,20 +66,12 @@ class EffectSelection:
     def estimated(
         self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
     ) -> "EffectSelection":
-        """The same with an effect that no model has, for a reason."""
-        impossible = dict(sorted((self.impossible | {name: why}).items()))
-        return replace(self, impossible=impossible).resized(name, sizes, tolerances)
-
-    def resized(
-        self, name: str, sizes: Sizes, tolerances: Mapping[str, float]
-    ) -> "EffectSelection":
-        """The same with another estimate of an effect that is not computed, which may turn out to
-        be negligible."""
-        mine = replace(self, estimates=self.estimates | {name: sizes})
-        if not is_negligible(sizes, tolerances):
-            return mine
+        """The same with the estimate of an effect that is not computed for a reason, unless it
+        turns out to be negligible."""
         impossible = {other: why for other, why in self.impossible.items() if other != name}
-        return replace(mine, impossible=impossible, negligible=self.negligible | {name: sizes})
+        impossible |= {} if is_negligible(sizes, tolerances) else {name: why}
+        estimates = self.estimates | {name: sizes}
+        return replace(self, impossible=dict(sorted(impossible.items())), estimates=estimates)
 
     def account(self, name: str) -> tuple[str, str]:
         """What became of an effect, and why."""
@@ -95,11 +93,11 @@ class EffectSelection:
 
     def not_modelled(self, quantity: str) -> Sizes:
         """By name, estimates of the effects on a quantity that no model has."""
-        open_effects = set(self.negligible) | set(self.impossible)  # not those of `laws`
+        unknown = self.negligible | self.impossible.keys()  # not those of `laws`
         return {
             name: sizes[quantity]
             for name, sizes in self.estimates.items()
-            if name in open_effects and quantity in sizes
+            if name in unknown and quantity in sizes
         }
 
 
@@ -113,32 +111,19 @@ def select_effects(
 
     known    by effect, what it was found to change, in place of its estimate
     no_time  why flow is not computed where it could be"""
-    own_effects, tolerance = contained(problem.scene), problem.scene.tolerances
-    sized = estimates(problem, shown) | known
-    added, negligible, impossible = set(), {}, {}
-    mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerance)}
-    flows = FLOW in own_effects
-    flows = flows or (FLOW in mattering and not (why_not(FLOW, problem) or no_time))
+    own, tolerances = contained(problem.scene), problem.scene.tolerances
+    sized, no_flow = estimates(problem, shown) | known, why_not(FLOW, problem) or no_time
+    mattering = {name for name, sizes in sized.items() if not is_negligible(sizes, tolerances)}
+    flows = FLOW in own or (FLOW in mattering and not no_flow)
     if LAW in mattering and not flows:  # it shows in finite deformation alone
         mattering.add(FINITE)
-    can_be_solved = LAW in mattering and why_not(LAW, problem, flows) is None
-    laws = open_laws(problem.scene) if can_be_solved else ()
-    for name, sizes in sized.items():
-        if name in own_effects or (name == LAW and laws and FINITE in own_effects):
-            continue
-        why = why_not(name, problem, flows) or (no_time if name == FLOW else None)
-        if name not in mattering:
-            negligible[name] = sizes
-        elif why is not None:
-            impossible[name] = why
-        elif name != LAW:
-            added.add(name)
-    if any(problem.scene.load.friction) and (added | own_effects) & set(NONLINEAR):
-        negligible.pop(COUPLED, None)  # these bodies have it
-    return EffectSelection(
-        *(own_effects, frozenset(added), negligible, impossible, sized, laws),
-        found=frozenset(known) & negligible.keys(),
-    )
+    mattering = (mattering & sized.keys()) - own
+    reasons = {name: why_not(name, problem, flows) for name in sized} | {FLOW: no_flow}
+    impossible = {name: reasons[name] for name in sized if name in mattering and reasons[name]}
+    computed = mattering - impossible.keys()
+    laws = open_laws(problem.scene) if LAW in computed else ()
+    found = frozenset(known) - mattering
+    return EffectSelection(own, computed - {LAW}, impossible, sized, laws, found)
 
 
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement, nearest_to_tolerance
 from comparisons.figures.quantity import QUANTITIES, WHOLE
-from comparisons.judging import coupling, yielding
+from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import show
 from comparisons.judging.ladder.rungs import (
@@ -19,7 +19,7 @@ from comparisons.judging.ladder.rungs import (
     nothing_suffices,
     rungs,
 )
-from comparisons.judging.model_error.error_budget import selected_effects
+from comparisons.judging.model_error.error_budget import effects_of_run
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
 from comparisons.models.analytic import carried_deformed
 
@@ -29,8 +29,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
     effects that this selects deform the bodies: it then waits for no finite elements."""
     if list(solved.runs) != [HALF_PLANE]:
         return
-    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
-    whole = selected_effects(solved, moved).whole
+    whole = effects_of_run(solved, tasks).whole
     held = carried_deformed(solved.problem, whole)
     if held and "plastic_flow" not in whole:
         announce_operators(solved, held, len(solved.problem.pitches), tasks)

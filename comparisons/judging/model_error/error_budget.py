@@ -21,7 +21,7 @@ from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Figure, Part, is_decided
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.coupling import Coupling
+from comparisons.judging.coupling import Coupling, coupled
 from comparisons.judging.effects.catalogue import (
     EFFECTS,
     FINITE,
@@ -59,18 +59,15 @@ from comparisons.judging.yielding import flow_assessment
 from comparisons.models.forecast import flow_seconds, time_with_flow
 
 
-def error_budget(
-    solved: Solved, rows: tuple[Figure, ...], couplings: tuple[Coupling, ...], tasks: Tasks
-) -> ErrorBudget:
+def error_budget(solved: Solved, rows: tuple[Figure, ...], tasks: Tasks) -> ErrorBudget:
     """Select the effects that may matter, solve them, and split the difference of the models. An
     effect that cannot be solved is not modelled: its estimate and the reason are kept.
 
-    rows       the comparison of the solved models; its norms are figures of none
-    couplings  of the half-plane, one a friction coefficient"""
+    rows  the comparison of the solved models; its norms are figures of none"""
     rows = tuple(row for row in rows if row.quantity in QUANTITIES)
     scene, variants = solved.problem.scene, SolvedVariants(solved, tasks)
     is_frugal = scene.budget.effects != "all"
-    selection = selected_effects(solved, couplings)
+    selection = effects_of_run(solved, tasks)
     is_open = FLOW in selection.added or not _is_decided(rows, selection)
     if is_frugal and selection.added and not is_open:
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
@@ -80,7 +77,7 @@ def error_budget(
             if FLOW in selection.added:
                 least = effects.budget(LEAST_LEVELS, is_frugal=False)
                 if (flow := _idle_flow(least, scene.tolerances)) is not None:
-                    selection = selected_effects(solved, couplings, {FLOW: flow})
+                    selection = selected_effects(solved, coupled(solved, tasks), {FLOW: flow})
                     continue
             budget = effects.budget(MOST_LEVELS, is_frugal)
         except NotComputedError as error:
@@ -139,16 +136,17 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     shown = Shown(max(map(np.max, pressures)), max(map(mean_pressure, pressures)))
     tolerances = problem.scene.tolerances
     if selection.impossible.get(LAW) == ITS_OWN_LAW:
-        selection = selection.resized(LAW, law_of_elasticity(problem, shown), tolerances)
+        sizes = law_of_elasticity(problem, shown)
+        selection = selection.estimated(LAW, sizes, ITS_OWN_LAW, tolerances)
     if selection.impossible.get(FINITE) == SMALL_STRAINS and strains:
         sizes = finite_flow(problem, shown, max(strains))
-        selection = selection.resized(FINITE, sizes, tolerances)
+        selection = selection.estimated(FINITE, sizes, SMALL_STRAINS, tolerances)
     if selection.impossible.get(FINITE) != SMALL_STRAINS:
         return selection
     asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
     # what its law of elasticity may change stays, and decides nothing of this
-    others = {name: why for name, why in selection.impossible.items() if name != LAW}
-    known = replace(budget, selection=replace(selection, impossible=others)).figures(tolerances)
+    others = {name: sizes for name, sizes in selection.estimates.items() if name != LAW}
+    known = replace(budget, selection=replace(selection, estimates=others)).figures(tolerances)
     # at the least tolerance at which a run holds it is as open as here
     open_figures = (f for f in known if f.bounds and f.verdict == "inconclusive")
     if not asked or (asked != "all" and all(figure.is_unresolved for figure in open_figures)):
@@ -170,9 +168,7 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     return replace(selection.without(frozenset({FINITE}), why), time=time)
 
 
-def announce_effects(
-    solved: Solved, couplings: tuple[Coupling, ...], tasks: Tasks
-) -> Callable[[], None]:
+def announce_effects(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     """Add to the tasks what `error_budget` will ask for, as the half-plane on the levels that the
     scene asks for selects it: it may begin before the finite elements are done. Should a finer
     half-plane select other effects, these are solved then.
@@ -180,7 +176,7 @@ def announce_effects(
     Call what is returned once the scene's own finite elements leave a figure open on the least
     levels. The whole will leave it open, too: its further level need not wait, and a process stays
     with the bodies of one level."""
-    selection = selected_effects(solved, couplings)
+    selection = effects_of_run(solved, tasks)
     effects = EffectRefinement((), SolvedVariants(solved, tasks), selection)
     most = min(most_effect_levels(solved.problem), len(solved.runs["half_plane"].levels))
     if FLOW in selection.added:
@@ -188,6 +184,12 @@ def announce_effects(
     effects.announce(LAST, most, PERHAPS)
     announce_sampling(solved, tasks)
     return partial(effects.announce, LATER, most)
+
+
+def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
+    """As the half-plane selects them as far as it is refined, decided once."""
+    levels = len(solved.runs["half_plane"].levels)
+    return tasks.held("effects", levels, lambda: selected_effects(solved, coupled(solved, tasks)))
 
 
 def selected_effects(

@@ -13,16 +13,16 @@ from comparisons.common.progress import Early
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement
 from comparisons.figures.quantity import QUANTITIES, WHOLE
-from comparisons.judging import comparison, coupling
-from comparisons.judging.coupling import Coupling
+from comparisons.judging import comparison
+from comparisons.judging.coupling import Coupling, coupled
 from comparisons.judging.effects.catalogue import EFFECTS, estimates
 from comparisons.judging.effects.estimates import Shown, mean_pressure
 from comparisons.judging.effects.laws import trust
 from comparisons.judging.model_error import show
 from comparisons.judging.model_error.error_budget import (
     announce_effects,
+    effects_of_run,
     error_budget,
-    selected_effects,
 )
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.model_error.show import TRUST
@@ -50,8 +50,7 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
     half-plane selects them."""
     if not solved.plan.compares:
         return []
-    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
-    selection = selected_effects(solved, moved)
+    selection = effects_of_run(solved, tasks)
     account = {name: selection.account(name) for name in EFFECTS}
     flows = flows_at_such(solved.problem.scene, flow_assessment(solved))
     lines = [f"flow: {flows}"] if flows else []
@@ -64,17 +63,15 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
 
 
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
-    moved = coupling.coupled(solved, tasks) if solved.plan.coupling else ()
-    more = announce_effects(solved, moved, tasks)
-    case = max(solved.cases, key=lambda case: case.friction)
+    more = announce_effects(solved, tasks)
+    case, moved = max(solved.cases, key=lambda case: case.friction), coupled(solved, tasks)
     for line in early_lines(case.problem, case.runs["half_plane"].finest, moved):
         tasks.callback(Early(line))
     return more
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    moved = before[coupling.NAME].data if coupling.NAME in before else ()
-    budget = error_budget(solved, before[comparison.NAME].figures, moved, tasks)
+    budget = error_budget(solved, before[comparison.NAME].figures, tasks)
     return findings_of(budget, solved.problem)
 
 

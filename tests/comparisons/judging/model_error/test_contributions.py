@@ -27,7 +27,7 @@ WAVY = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
 
 
 def selection_of(contained: Iterable[str] = (), added: Iterable[str] = ()) -> EffectSelection:
-    return EffectSelection(frozenset(contained), frozenset(added), {}, {}, {})
+    return EffectSelection(frozenset(contained), frozenset(added), {}, {})
 
 
 def is_nothing(difference: QuantitiesOfInterest) -> bool:

@@ -58,7 +58,7 @@ def budgets(problem_with, tmp_path_factory):
         for effects in (True, "all"):
             scene = problem.scene.unchecked({"budget.effects": effects})
             posed = replace(solved, problem=replace(problem, scene=scene))
-            results.append(error_budget(posed, rows, (), Tasks(kept=cache)))
+            results.append(error_budget(posed, rows, Tasks(kept=cache)))
         return *results, problem.scene.tolerances
 
     return made

@@ -26,7 +26,7 @@ from comparisons.runs.refinement import refined
 from meshes.block import MeshError
 
 RIGID = {"rigid": True}
-SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
+SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {})
 
 
 @pytest.fixture(scope="module")

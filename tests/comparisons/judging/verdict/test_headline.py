@@ -18,7 +18,7 @@ from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 
 TOLERANCE = 0.02
-NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})
+NONE = EffectSelection(frozenset(), frozenset(), {}, {})
 
 
 def error_of(quantity: str, value: float, uncertainty: float, **effects: float) -> Figure:
@@ -118,7 +118,6 @@ def test_inconclusive_by_what_is_not_modelled(smooth_outcome: Run):
     missing = EffectSelection(
         frozenset(),
         frozenset(),
-        {"exact_circle": sizes["exact_circle"]},
         {"plastic_flow": "the body has no yield stress"},
         sizes,
     )

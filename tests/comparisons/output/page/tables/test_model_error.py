@@ -27,7 +27,6 @@ ESTIMATES = {
 SELECTION = EffectSelection(
     frozenset({"finite_size"}),
     frozenset({"finite_roller", "finite_strain"}),
-    {"exact_circle": ESTIMATES["exact_circle"]},
     {"plastic_flow": "the body has no yield stress"},
     ESTIMATES,
 )
@@ -94,7 +93,7 @@ def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Run):
         "plastic flow (at most 8.0 %): the body has no yield stress"  # the circle is negligible
     )
     why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
-    selection = replace(split.data("model_error").selection, impossible=why, negligible=())
+    selection = replace(split.data("model_error").selection, impossible=why)
     both = budgeted(split, replace(split.data("model_error"), selection=selection))
     assert not_modelled_line(both) == (
         "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
