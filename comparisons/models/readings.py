@@ -3,6 +3,7 @@
 Hats leave something out of the stresses next to the ends of contact, and on a periodic surface the
 periods but three: `beside_hats`."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -11,14 +12,15 @@ from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress.elements import FrictionStress
-from analytic.stress.field import FrictionField, friction_field
+from analytic.stress.field import FrictionField, StressField, friction_field
+from analytic.stress.maxima import stress_maxima
 from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
 from analytic.stress.points import friction_stress_at
-from analytic.stress_state import StressState
+from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import Level
 from comparisons.models.operators import patches_of
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
+from comparisons.models.window import Window, search_window
 
 SLOPE_STEP = 1e-3  # of a pitch, on either side
 
@@ -80,6 +82,22 @@ def hats_field(grid: HatGrid, pressure: np.ndarray, points: Window) -> FrictionF
         subdivisions=points.subdivisions(grid.pitch),
         stride=points.stride(grid.pitch),
     )
+
+
+def largest_tau1(
+    problem: Problem,
+    grid: HatGrid,
+    pressure: np.ndarray,
+    friction: float,
+    window: Window,
+    beside: Callable[[np.ndarray, np.ndarray], StressState],
+) -> Extremum:
+    """The largest tau1 [Pa] in a window below hats of pressure (n,) [Pa] and their sliding
+    traction, with the stresses `beside` them at x and z [m]."""
+    field = hats_field(grid, pressure, search_window(problem, window)).at(friction)
+    stress = field.stress.plus(1.0, beside(*np.meshgrid(field.x, field.z)))
+    field, nu = StressField(field.x, field.z, stress), problem.scene.body.poissons_ratio
+    return stress_maxima(grid.x, pressure, friction, field, nu, beside=beside).tau1
 
 
 def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> FrictionField:

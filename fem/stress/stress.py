@@ -68,6 +68,15 @@ class NodalStress:
         """(k,) [Pa], with Poisson's ratio."""
         return MaterialStress(*self.values.T, self.poissons_ratio)
 
+    def plus(self, values: np.ndarray) -> "NodalStress":
+        """With further sx, sz, txz (k, 3) [Pa], quadratic between the nodes."""
+        return replace(
+            self,
+            at=lambda node: self.at(node) + values[node],
+            estimate=lambda: self.estimate() + values,
+            together=None,
+        )
+
 
 def nodal_stresses(
     displacement: np.ndarray, load: SurfaceLoad, beside: Sequence[Beside] | None = None

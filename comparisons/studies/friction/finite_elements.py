@@ -24,8 +24,6 @@ from comparisons.studies.friction.half_planes import (
     bulk_stress,
     ends_stress,
     slipped_level,
-    surface_places,
-    with_cusps,
     with_surface,
 )
 from fem.stress.maximum import maximum
@@ -35,8 +33,6 @@ from fem.stress.surface_load import SurfaceLoad
 # Of the largest pressure: what the last turn of normal and tangential problem moves on finite
 # elements, each application of which takes a back-substitution
 SETTLED = 1e-6
-# Stresses at nodes and what makes them, after a load of the path
-Stressed = Callable[[int], tuple[NodalStress, SurfaceLoad]]
 
 
 def finite_element_slip(
@@ -90,11 +86,15 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
     )
 
 
-def _stressed(problem: Problem, operator: MutualCompliance, slipped: SlippedLevel) -> Stressed:
-    """Recovered from displacements under the tractions, and the bulk stress."""
+def _with_mesh_stress(
+    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
+) -> SlippedLevel:
+    """With the largest stresses of the rough body, recovered from displacements under the
+    tractions, and the bulk stress, in a coating that of the strain below."""
     rough, body, scene = operator.rough, operator.rough.body, problem.scene
     layer = scene.coating and scene.coating.material.plane_strain_modulus
-    stiffness = np.where(body.coated, layer or 0.0, scene.body.material.plane_strain_modulus)
+    base = scene.body.material.plane_strain_modulus
+    stiffness = np.where(body.coated, layer or 0.0, base) / base
 
     def stressed(number: int) -> tuple[NodalStress, SurfaceLoad]:
         state = slipped.states[number]
@@ -103,34 +103,13 @@ def _stressed(problem: Problem, operator: MutualCompliance, slipped: SlippedLeve
         moved = rough.displacement_of(pressure, traction)
         beside = [ends_stress(problem, slipped.grid, state)]
         [nodal] = nodal_stresses(moved[:, None], load, beside)
-        strain = bulk_stress(problem, number) / scene.body.material.plane_strain_modulus
-        bulk = np.zeros((len(nodal.nodes.point), 3))
-        bulk[:, 0] = strain * nodal.nodes.of_triangles(stiffness)
-        whole = replace(
-            nodal,
-            at=lambda node: nodal.at(node) + bulk[node],
-            estimate=lambda: nodal.estimate() + bulk,
-            together=None,
-        )
-        return whole, load
+        bulk = bulk_stress(problem, number) * nodal.nodes.of_triangles(stiffness)
+        return nodal.plus(bulk[:, None] * np.array([1.0, 0.0, 0.0])), load
 
-    return stressed
-
-
-def _with_mesh_stress(
-    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
-) -> SlippedLevel:
-    """With the largest stresses of the rough body at the end of the path."""
-
-    def surface(number: int) -> StressState:
+    def surface(number: int, x: np.ndarray) -> StressState:
         whole, load = last if number == -1 else stressed(number)
-        loaded = evaluate(body, whole, x, load.surface(x))
-        if is_layered(problem.scene):
-            return loaded
-        return with_cusps(problem, slipped.grid, slipped.states[number], x, loaded)
+        return evaluate(body, whole, x, load.surface(x))
 
-    body, stressed = operator.rough.body, _stressed(problem, operator, slipped)
-    last, x = stressed(-1), surface_places(problem, slipped, window)
-    bounds = *window.ends, window.z[-1]
+    last, bounds = stressed(-1), (*window.ends, window.z[-1])
     tau1 = maximum(body, last[0], lambda stress: stress.tau1, bounds)
-    return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)
+    return with_surface(problem, slipped, window, tau1, surface, cusps=not is_layered(scene))

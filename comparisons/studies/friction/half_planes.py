@@ -23,14 +23,13 @@ from analytic.material import Material
 from analytic.numerics import runs_of
 from analytic.stress.elements import FrictionStress
 from analytic.stress.fatigue import ruiz, smith_watson_topper
-from analytic.stress.field import StressField
-from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import Level
+from comparisons.models.operators import patches_of
 from comparisons.models.problem import Problem
-from comparisons.models.readings import ends_of, hats_field, left_out_at_ends
-from comparisons.models.window import Window, search_window
+from comparisons.models.readings import ends_of, largest_tau1, left_out_at_ends
+from comparisons.models.window import Window
 
 # Pitches from an end of contact where the surface's stress is looked at too: tension, traction and
 # slip together are largest between the last nodes
@@ -44,13 +43,13 @@ class SlippedLevel:
 
     path: tuple[float, ...]  # the loads, over that of sliding
     grid: HatGrid
+    friction: float
+    # slip and work of all steps from the load before; displacement of the roller against the ends
+    # of the coarsest grid
     states: tuple[SlipState, ...]
-    zones: tuple[np.ndarray, ...]  # (k, 2) [m] that stick, of each
-    energies: np.ndarray  # (m,) [J/m] lost to friction from the first touch on
-    displacements: np.ndarray  # (m,) [m] of the roller, against the ends of the coarsest grid
+    slips: np.ndarray  # (m, n) [m] of the roller over the body while they touched
     is_stepped: bool  # whether the loads come by increments
     material: Material  # of the body's surface
-    slips: np.ndarray  # (m, n) [m] of the roller over the body while they touched
     # [m] of the body's surface under the roller at the end; None: it has no base
     lowering: float | None = None
     tau1: Extremum | None = None  # largest, at the end; with [stress]
@@ -59,6 +58,21 @@ class SlippedLevel:
     surface: StressState | None = None
     opposite: StressState | None = None
 
+    @cached_property
+    def zones(self) -> tuple[np.ndarray, ...]:
+        """Zones (k, 2) [m] that stick, of each load."""
+        return tuple(stick_zones(self.grid.x, state, self.friction) for state in self.states)
+
+    @property
+    def energies(self) -> np.ndarray:
+        """(m,) [J/m] lost to friction from the first touch on."""
+        return np.cumsum([state.work for state in self.states])
+
+    @property
+    def displacements(self) -> np.ndarray:
+        """(m,) [m] of the roller."""
+        return np.array([state.displacement for state in self.states])
+
     @property
     def worst(self) -> float:
         """Largest residual of all states."""
@@ -66,29 +80,36 @@ class SlippedLevel:
 
     @cached_property
     def figures(self) -> dict[str, float]:
-        """At the end of the path of loads."""
+        """At the end of the path of loads; of fatigue Ruiz' parameter, and with a cycle Smith,
+        Watson and Topper's."""
         normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
         edges = contact_patches(self.grid.x, normal.pressure, normal.gap)
         touching = self.grid.x[normal.pressure > 0.0]
         known = {
             "stick_length": stuck,
             "stick_ratio": stuck / float(np.ptp(edges, axis=1).sum()),
-            "tangential_displacement": float(self.displacements[-1]),
             "energy_lost": float(self.energies[-1]),
             "slip_amplitude": float(self.amplitude(np.append(touching, edges)).max()),
+            "held_pressure": float(normal.pressure.max()),
         }
-        known["held_pressure"] = float(normal.pressure.max())
+        if any(self.path):  # else by symmetry alone
+            known["tangential_displacement"] = self.states[-1].displacement
         if self.lowering is not None:
             known["held_lowering"] = self.lowering
-        if not any(self.path):  # symmetry alone
-            del known["tangential_displacement"]
         before = last_visit(self.path)
         if before is not None:
             known["energy_of_cycle"] = float(self.energies[-1] - self.energies[before])
         if self.tau1 is not None:
-            known["edge_tension"] = float(np.nanmax(self.surface.sx))
-            known["tau1_slip"] = self.tau1.value
-            known |= self.fatigue()
+            last = self.surface
+            largest = {
+                "edge_tension": last.sx,
+                "tau1_slip": self.tau1.value,
+                "ruiz": ruiz(last.sx, last.txz, self.amplitude(self.x)),
+            }
+            if self.opposite is not None:
+                fatigue = smith_watson_topper(last, self.opposite, self.material)
+                largest["smith_watson_topper"] = fatigue
+            known |= {name: float(np.nanmax(values)) for name, values in largest.items()}
         return known
 
     def amplitude(self, x: np.ndarray) -> np.ndarray:
@@ -104,15 +125,6 @@ class SlippedLevel:
         for outside, end, beside in sides if self.is_stepped else ():  # straight on to an end
             span[outside] = np.maximum(2.0 * span[end] - span[beside], 0.0)
         return np.interp(x, self.grid.x, span)
-
-    def fatigue(self) -> dict[str, float]:
-        """Ruiz' parameter at the end of the path, and with a cycle Smith, Watson and Topper's."""
-        amplitude, last = self.amplitude(self.x), self.surface
-        known = {"ruiz": ruiz(last.sx, last.txz, amplitude)}
-        if self.opposite is not None:
-            parameter = smith_watson_topper(last, self.opposite, self.material)
-            known["smith_watson_topper"] = parameter
-        return {name: float(np.nanmax(values)) for name, values in known.items()}
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
@@ -139,43 +151,53 @@ def half_plane_slip(
     slipped = slipped_level(problem, grid, pair, increments)
     if window is None:
         return slipped
-    state, x = slipped.states[-1], surface_places(problem, slipped, window)
-    beside, bulk = _traction_stress(problem, grid, state, -1), bulk_stress(problem, -1)
-    searched = search_window(problem, window)
-    normal = hats_field(grid, state.normal.pressure, searched)
-    traction = hats_field(grid, state.traction, searched).stress.traction
-    below = np.meshgrid(normal.x, normal.z)
-    stress = normal.stress.normal.plus(1.0, traction)
-    stress = stress.plus(1.0, ends_stress(problem, grid, state)(*below))
-    stress = StressState(stress.sx + bulk, stress.sz, stress.txz)
-    tau1 = stress_maxima(
-        grid.x,
-        state.normal.pressure,
-        0.0,
-        StressField(normal.x, normal.z, stress),
-        problem.scene.body.poissons_ratio,
-        beside=beside,
-    ).tau1
 
-    def surface(number: int) -> StressState:
-        at, top = slipped.states[number], (x, np.zeros_like(x))
-        pressed = friction_stress_at(grid.x, at.normal.pressure, *top).normal
-        loaded = pressed.plus(1.0, _traction_stress(problem, grid, at, number)(*top))
-        return with_cusps(problem, grid, at, x, loaded)
+    def dragged(number: int) -> Beside:
+        """Of all but the pressure."""
+        ends = ends_stress(problem, grid, slipped.states[number], bulk_stress(problem, number))
+        line = grid.x, slipped.states[number].traction
+        return lambda *at: friction_stress_at(*line, *at).traction.plus(1.0, ends(*at))
 
-    return with_surface(problem, replace(slipped, tau1=tau1, x=x), surface)
+    def surface(number: int, x: np.ndarray) -> StressState:
+        pressure, top = slipped.states[number].normal.pressure, (x, np.zeros_like(x))
+        return friction_stress_at(grid.x, pressure, *top).normal.plus(1.0, dragged(number)(*top))
+
+    pressure = slipped.states[-1].normal.pressure
+    tau1 = largest_tau1(problem, grid, pressure, 0.0, window, dragged(-1))
+    return with_surface(problem, slipped, window, tau1, surface)
 
 
 def with_surface(
-    problem: Problem, slipped: SlippedLevel, surface: Callable[[int], StressState]
+    problem: Problem,
+    slipped: SlippedLevel,
+    window: Window,
+    tau1: Extremum,
+    stress: Callable[[int, np.ndarray], StressState],
+    cusps: bool = True,
 ) -> SlippedLevel:
-    """With stresses (k,) of the surface at the level's places x under the last load, and at the
-    other end of the last cycle, where the load is farthest from the final one, of what gives them
-    under each load of the path."""
-    path, other = problem.scene.partial_slip.path, None
+    """With the largest tau1 at the end, and with stresses of the surface at places of grid, window
+    and about ends of contact, where sx is largest: under the last load, and at the other end of the
+    last cycle, where the load is farthest from the final one.
+
+    stress  (k,) [Pa] of the surface under a load of the path, by its number, at x (k,) [m]
+    cusps   whether these lack what is next to ends of contact, which slip"""
+    path, grid, last = slipped.path, slipped.grid, slipped.states[-1].normal
+    curves = (patch.ends for patch in ends_of(problem, grid, last).patches)
+    edges = np.concatenate([patches_of(grid, last).ravel(), *curves])
+    near = (edges[:, None] + grid.pitch * BESIDE_AN_END).ravel()
+    x = np.unique(np.concatenate([window.x, grid.x, near]))
+
+    def surface(number: int) -> StressState:
+        state, loaded = slipped.states[number], stress(number, x)
+        if not cusps:
+            return loaded
+        pressed, dragged = left_out_at_ends(problem, grid, state.normal, x)
+        return replace(loaded, sx=loaded.sx + pressed + traction_share(state, grid)(x) * dragged)
+
+    other = None
     if (before := last_visit(path)) is not None:
         other = surface(max(range(before, len(path)), key=lambda k: abs(path[k] - path[-1])))
-    return replace(slipped, surface=surface(-1), opposite=other)
+    return replace(slipped, tau1=tau1, x=x, surface=surface(-1), opposite=other)
 
 
 def bulk_stress(problem: Problem, number: int) -> float:
@@ -201,60 +223,35 @@ def steps_of(problem: Problem, unlike: bool, increments: int) -> Iterator[tuple[
 def slipped_level(
     problem: Problem, grid: HatGrid, pair: SurfacePair, increments: int
 ) -> SlippedLevel:
-    state, work, coarsest = None, 0.0, problem.grid(problem.pitches[0]).x[[0, -1]]
-    states, energies, moved, slips = [], [], [], []
-    # alike bodies touch where they did: beside an end of contact they move as at it
-    slipped, touched = np.zeros(grid.count), True
-    for steps in steps_of(problem, pair.raised is not None, increments):
+    state, coarsest = None, problem.grid(problem.pitches[0]).x[[0, -1]]
+    states, slips, slipped = [], [], np.zeros(grid.count)
+    is_stepped = pair.raised is not None
+    for steps in steps_of(problem, is_stepped, increments):
         # what slips on the whole way, under one normal load: where it begins is read from it as
         # from a gap, whatever the steps
-        on_the_way, pressed = np.zeros(grid.count), None
+        on_the_way, work, pressed = np.zeros(grid.count), 0.0, None
         for loads in steps:
             before, state = state, stepped(pair, state, loads)
             work += state.work
-            if pair.raised is not None:
-                touched = state.normal.pressure > 0.0
-                if before is not None:
-                    touched &= before.normal.pressure > 0.0
+            # alike bodies touch where they did: beside an end of contact they move as at it
+            pressures = [one.normal.pressure for one in (before, state) if one is not None]
+            touched = np.min(pressures, axis=0) > 0.0 if is_stepped else True
             slipped = slipped + np.where(touched, state.slip, 0.0)
             on_the_way = state.slip + (on_the_way if loads.normal == pressed else 0.0)
             pressed = loads.normal
-        states.append(replace(state, slip=on_the_way))
-        slips.append(slipped)
-        energies.append(work)
         carried = pair.carried(state.normal.pressure, state.traction)
-        moved.append(state.displacement - np.interp(coarsest, grid.x, carried).mean())
-    zones = tuple(stick_zones(grid.x, state, pair.friction) for state in states)
+        moved = state.displacement - float(np.interp(coarsest, grid.x, carried).mean())
+        states.append(replace(state, slip=on_the_way, work=work, displacement=moved))
+        slips.append(slipped)
     return SlippedLevel(
         path=problem.scene.partial_slip.path,
         grid=grid,
+        friction=pair.friction,
         states=tuple(states),
-        zones=zones,
-        energies=np.array(energies),
-        displacements=np.array(moved),
-        is_stepped=pair.raised is not None,
-        material=(problem.scene.coating or problem.scene.body).material,
         slips=np.array(slips),
+        is_stepped=is_stepped,
+        material=(problem.scene.coating or problem.scene.body).material,
     )
-
-
-def surface_places(problem: Problem, slipped: SlippedLevel, window: Window) -> np.ndarray:
-    """x (k,) [m] of grid, window and about ends of contact, where sx of the surface is largest."""
-    state = slipped.states[-1]
-    ends = ends_of(problem, slipped.grid, state.normal).patches
-    patches = contact_patches(slipped.grid.x, state.normal.pressure, state.normal.gap)
-    edges = np.concatenate([patches.ravel(), *(patch.ends for patch in ends)])
-    beside = slipped.grid.pitch * BESIDE_AN_END
-    near = (edges[:, None] + beside).ravel()
-    return np.unique(np.concatenate([window.x, slipped.grid.x, near]))
-
-
-def with_cusps(
-    problem: Problem, grid: HatGrid, state: SlipState, x: np.ndarray, surface: StressState
-) -> StressState:
-    """Stresses of the surface at x (k,) [m] with what they lack at ends of contact, which slip."""
-    pressed, dragged = left_out_at_ends(problem, grid, state.normal, x)
-    return replace(surface, sx=surface.sx + pressed + traction_share(state, grid)(x) * dragged)
 
 
 def traction_share(state: SlipState, grid: HatGrid) -> Callable[[np.ndarray], np.ndarray]:
@@ -266,24 +263,14 @@ def traction_share(state: SlipState, grid: HatGrid) -> Callable[[np.ndarray], np
     return lambda x: share[np.searchsorted(middles, x)]
 
 
-def ends_stress(problem: Problem, grid: HatGrid, state: SlipState) -> Beside:
-    """What hats leave out next to the ends of contact, where q / p is that of the nearest node."""
+def ends_stress(problem: Problem, grid: HatGrid, state: SlipState, bulk: float = 0.0) -> Beside:
+    """What hats leave out next to the ends of contact, where q / p is that of the nearest node, and
+    the bulk's sx [Pa]."""
     ends, share = ends_of(problem, grid, state.normal), traction_share(state, grid)
 
     def stress(x: np.ndarray, z: np.ndarray) -> StressState:
         parts = FrictionStress.of(ends.parts(x, z))
-        return parts.normal.plus(share(x), parts.traction)
-
-    return stress
-
-
-def _traction_stress(problem: Problem, grid: HatGrid, state: SlipState, number: int) -> Beside:
-    """Stresses of the traction, of the ends and of the bulk, under a load of the path."""
-    ends, bulk = ends_stress(problem, grid, state), bulk_stress(problem, number)
-
-    def stress(x: np.ndarray, z: np.ndarray) -> StressState:
-        traction = friction_stress_at(grid.x, state.traction, x, z).traction
-        both = traction.plus(1.0, ends(x, z))
-        return StressState(both.sx + bulk, both.sz, both.txz)
+        both = parts.normal.plus(share(x), parts.traction)
+        return replace(both, sx=both.sx + bulk)
 
     return stress

@@ -8,6 +8,7 @@ from analytic.numerics import runs_of
 from comparisons.figures.convergence import REGULAR
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.judging.rule import relative_l2
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.friction.half_planes import SlippedLevel
 
@@ -29,7 +30,8 @@ def outside_figures(
     norm's uncertainty is what these points leave out of the model's own traction, and what the
     last level changed of that traction, whose error is of first order."""
     grid, state = levels[-1].grid, levels[-1].states[-1]
-    reference, _ = _stuck(state.normal.pressure, state.traction, model.friction, grid.pitch)
+    traction = state.traction
+    reference, _ = _stuck(state.normal.pressure, traction, model.friction, grid.pitch)
     for name, resolutions in answers.items():
         answer = resolutions[-1]
         if answer.shear is None:
@@ -57,10 +59,14 @@ def outside_figures(
             bounds=(-tolerance, tolerance),
             **common,
         )
-        norm, left, refined = _apart(levels, answer, shear)
+        seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
+        left, refined = relative_l2(np.interp(grid.x, answer.x, seen), traction), np.inf
+        for before in levels[-2:-1]:
+            coarser = np.interp(grid.x, before.grid.x, before.states[-1].traction)
+            refined = REGULAR * relative_l2(coarser, traction)
         yield Figure(
             quantity="traction_l2",
-            value=norm,
+            value=relative_l2(shear, traction),
             against=model.source,
             uncertainty=Uncertainty({"answer": left, "model": refined}),
             **common,
@@ -74,23 +80,3 @@ def _stuck(
     held = (pressure > 0.0) & (np.abs(shear) < STUCK * friction * pressure)
     first, after = runs_of(held)
     return float(pitch * (after - first).sum()), len(first)
-
-
-def _apart(
-    levels: Sequence[SlippedLevel], answer: Answer, shear: np.ndarray
-) -> tuple[float, float, float]:
-    """Three relative L2 norms, on the finest level's grid: of an answer's traction (n,) [Pa] less
-    the model's; of what the answer's points leave out of the model's; and of what the last level
-    changed of the model's, infinite where there is no level before."""
-    grid, traction = levels[-1].grid, levels[-1].states[-1].traction
-    size = float(np.linalg.norm(traction)) or 1.0
-
-    def norm(other: np.ndarray) -> float:
-        return float(np.linalg.norm(other - traction)) / size
-
-    seen = np.interp(answer.x, grid.x, traction, left=0.0, right=0.0)
-    left, refined = norm(np.interp(grid.x, answer.x, seen)), np.inf
-    if len(levels) > 1:
-        before = levels[-2]
-        refined = REGULAR * norm(np.interp(grid.x, before.grid.x, before.states[-1].traction))
-    return norm(shear), left, refined

@@ -7,7 +7,6 @@ temperature at the scene's `reach` from the contact, and where its rim comes in;
 what is heated is meshed."""
 
 from collections.abc import Callable, Set
-from dataclasses import replace
 
 import numpy as np
 
@@ -156,13 +155,7 @@ def finite_element_stress(
     temperature = solved_heat(problem, level)[1]
     thermal, _ = thermal_stress(body, expansion, temperature(body.points))
     elastic = field.on(body)[field.frictions.index(friction)]
-    both = replace(
-        elastic,
-        at=lambda node: elastic.at(node) + thermal.at(node),
-        estimate=lambda: elastic.estimate() + thermal.values,
-        together=None,
-    )
-    bounds = *window.ends, window.z[-1]
+    both, bounds = elastic.plus(thermal.values), (*window.ends, window.z[-1])
     tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
     x = surface_places(problem, level, window)
     x = x[np.abs(x) <= field.mesh.spec.half_width]

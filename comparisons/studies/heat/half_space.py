@@ -7,13 +7,13 @@ Stresses are steady and elastic, of a body that the bulk temperature leaves with
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from analytic.stress.field import StressField
-from analytic.stress.maxima import stress_maxima
+from analytic.heat.moving_source import HeatedSurface
+from analytic.heat.partition import divided
+from analytic.heat.thermal_stress import thermal_stress
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
 from comparisons.models.level import Level
@@ -21,14 +21,11 @@ from comparisons.models.problem import Problem
 from comparisons.models.readings import (
     ends_of,
     ends_of_contact,
-    field_on,
+    largest_tau1,
     left_out_at_ends,
     stresses_at,
 )
 from comparisons.models.window import Window, search_window
-
-if TYPE_CHECKING:
-    from analytic.heat.moving_source import HeatedSurface
 
 # Peclet number V a / (2 kappa) of the contact's half-width a. Faster, and the heated layer is
 # thinner than a seventieth of a: mesh and half-space would need elements for that alone. Slower,
@@ -87,12 +84,8 @@ def heat_of_friction(problem: Problem, level: Level) -> np.ndarray:
     return problem.largest_friction * problem.scene.heat.speed * level.solution.pressure
 
 
-def half_spaces(
-    problem: Problem, count: int, pitch: float
-) -> "tuple[HeatedSurface, HeatedSurface]":
+def half_spaces(problem: Problem, count: int, pitch: float) -> tuple[HeatedSurface, HeatedSurface]:
     """Body and roller as half-spaces of one material each, on nodes of one pitch [m]."""
-    from analytic.heat.moving_source import HeatedSurface
-
     heat = problem.scene.heat
     materials = (heat.body, heat.roller)
     return tuple(
@@ -103,8 +96,6 @@ def half_spaces(
 
 def half_space_heat(problem: Problem, level: Level) -> HeatedContact:
     """Both surfaces' temperatures, equal where they touch, under the pressures of a level."""
-    from analytic.heat.partition import divided
-
     grid, heat = level.grid, heat_of_friction(problem, level)
     parts = divided(*half_spaces(problem, grid.count, grid.pitch), heat)
     return HeatedContact(grid.x, heat, parts.flux, parts.first, parts.second, parts.fraction)
@@ -198,25 +189,20 @@ def surface_places(problem: Problem, level: Level, window: Window) -> np.ndarray
 
 def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:
     """Of the half-plane on a level of its own."""
-    friction, ends = problem.largest_friction, ends_of(problem, level.grid, level.solution)
-    searched, close = search_window(problem, window), ends.at(friction)
-    thermal = _thermal(problem, level, searched)
-    field = field_on(level, searched, ends).at(friction)
-    both = field.stress.plus(1.0, thermal(*np.meshgrid(field.x, field.z)))
-    maxima = stress_maxima(
-        level.grid.x,
-        level.solution.pressure,
-        friction,
-        StressField(field.x, field.z, both),
-        problem.scene.body.poissons_ratio,
-        beside=lambda x, z: close(x, z).plus(1.0, thermal(x, z)),
-    )
+    friction, grid, solution = problem.largest_friction, level.grid, level.solution
+    close = ends_of(problem, grid, solution).at(friction)
+    thermal = _thermal(problem, level, search_window(problem, window))
+
+    def beside(x: np.ndarray, z: np.ndarray) -> StressState:
+        return close(x, z).plus(1.0, thermal(x, z))
+
+    tau1 = largest_tau1(problem, grid, solution.pressure, friction, window, beside)
     x = surface_places(problem, level, window)
     elastic = stresses_at(problem, level, (friction,), x, np.zeros_like(x))[friction].sx
-    elastic += (1.0, friction) @ left_out_at_ends(problem, level.grid, level.solution, x)
+    elastic += (1.0, friction) @ left_out_at_ends(problem, grid, solution, x)
     nodes, stress = _thermal_line(problem, level, (x[0], x[-1]), np.zeros(1))
     sx = np.array([elastic + CubicSpline(nodes, stress.sx[0])(x), elastic])
-    return HeatedStress((maxima.tau1, level.stress.extremes["tau1"]), x, sx)
+    return HeatedStress((tau1, level.stress.extremes["tau1"]), x, sx)
 
 
 def _thermal(
@@ -234,8 +220,6 @@ def _thermal_line(
 ) -> tuple[np.ndarray, StressState]:
     """x (n,) [m] over contact and span, as dense as the fluxes, and thermal stresses (m, n) [Pa]
     at depths (m,) [m]."""
-    from analytic.heat.thermal_stress import thermal_stress
-
     contact, pitch = half_space_heat(problem, level), level.grid.pitch
     ends = contact.x[0] - span[0], span[1] - contact.x[-1]
     before, after = (max(0, int(np.ceil(beyond / pitch)) + 4) for beyond in ends)
