@@ -46,7 +46,7 @@ def stated(figure: Figure | None, scale: Scale = PURE) -> str:
     own; without one in three, an exact one in four."""
     if figure is None:
         return ""
-    value, size = (number / scale.factor for number in (figure.value, _size(figure)))
+    value, size = figure.value / scale.factor, figure.numerical * figure.scale / scale.factor
     if not (isfinite(value) and isfinite(size)) or size == 0.0:
         return scale.named(significant(value, 3 if size else 4))
     last = max(floor(log10(size)), floor(log10(abs(value) or size)) - MOST_DIGITS + 1)
@@ -60,11 +60,6 @@ def stated(figure: Figure | None, scale: Scale = PURE) -> str:
 def in_its_unit(figure: Figure, quantities: Mapping[str, Quantity]) -> str:
     """`stated` in the unit that suits it."""
     return stated(figure, scale_of([figure.value], quantities[figure.quantity].unit))
-
-
-def _size(figure: Figure) -> float:
-    """Numerical uncertainty [SI]."""
-    return figure.numerical * figure.scale
 
 
 def in_context(hertz: "HertzContact", quantities: Mapping[str, Quantity]) -> Below:
@@ -155,27 +150,26 @@ def _allowed(figure: Figure, unit: str) -> str:
 def facts_of(
     figures: Sequence[Figure], quantities: Mapping[str, Quantity], names: Mapping[str, str] = {}
 ) -> list[tuple[str, str]]:
-    """What a table does not hold, as names and values: by whom, and at which friction where there
-    are several."""
+    """What a table does not hold, as names and values: by whom, in the words of `names` if there
+    are any, and at which friction where there are several."""
     known = _in_order(figures, quantities)
     several = len({figure.friction for figure in known} - {None}) > 1
     facts = []
     for figure in known:
-        by = names.get(figure.source, LABELS.get(figure.source, figure.source))
-        at = f", friction {plain(figure.friction)}" if several and figure.at else ""
-        name = f"{quantities[figure.quantity].label}{f', {by}' if by else ''}{at}"
+        by, at = names.get(figure.source, figure.source), figure.at if several else {}
+        name = _named(quantities[figure.quantity].label, by, at)
         facts.append((name, in_its_unit(figure, quantities)))
     return facts
 
 
 def in_words(statements: Iterable[Statement]) -> list[tuple[str, str]]:
     """Statements as names and texts."""
-    said = []
-    for one in statements:
-        at = (f"{name} {plain(value)}" for name, value in one.at.items())
-        by = LABELS.get(one.source, one.source)
-        said.append((", ".join(filter(None, (one.name, by, *at))), one.text))
-    return said
+    return [(_named(said.name, said.source, said.at), said.text) for said in statements]
+
+
+def _named(name: str, source: str, at: Mapping[str, float]) -> str:
+    places = (f"{key} {plain(value)}" for key, value in at.items())
+    return ", ".join(filter(None, (name, LABELS.get(source, source), *places)))
 
 
 def line_of(figures: Sequence[Figure], quantities: Mapping[str, Quantity]) -> str:
@@ -228,9 +222,9 @@ def stated_text(column: Column) -> list[str]:
 
 def series_table(title: str, series: Series) -> TextTable:
     """A row for each of a series' columns, by its name in words; the first is the head."""
-    head, *rows = ((_in_words(name), *stated_text(c)) for name, c in series.columns.items())
+    head, *rows = ((_of_column(name), *stated_text(c)) for name, c in series.columns.items())
     return TextTable(title, head, tuple(rows))
 
 
-def _in_words(name: str) -> str:
+def _of_column(name: str) -> str:
     return name.removeprefix("figures.").replace("_", " ").replace(".", ", ")

@@ -25,6 +25,7 @@ from comparisons.common.tasks import LAST, Tasks
 from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
 from comparisons.drawing.curves import joint_legend
+from comparisons.drawing.tables import stated_text
 from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
@@ -255,16 +256,13 @@ def _limit(row: Mapping[str, object]) -> str:
 
 def table(findings: Findings) -> TextTable:
     """All rows, from coarse to fine."""
-    series = findings.table(ROWS)
-    names = [name for name in series.columns if name in SHOWN]
-    head = ("model", "pitch", *(label(name) for name in names), "time", "memory")
-    rows = []
-    for row in series.rows():
-        errors = ("reference" if row[name] is None else percent(row[name]) for name in names)
-        memory = with_unit(row["peak_memory"], "byte", 3)
-        cells = with_unit(row["pitch"], "m", 3), *errors, with_unit(row["seconds"], "s", 2), memory
-        rows.append((row["model"], *cells))
-    return TextTable("", head, tuple(rows))
+    columns = findings.table(ROWS).columns
+    names = [name for name in columns if name in SHOWN]
+    errors = [["reference" if e is None else percent(e) for e in columns[n].values] for n in names]
+    shown = ("model", "pitch", "seconds", "peak_memory")
+    model, pitch, time, memory = (stated_text(columns[name]) for name in shown)
+    head = ("model", "pitch", *map(label, names), "time", "memory")
+    return TextTable("", head, tuple(zip(model, pitch, *errors, time, memory, strict=True)))
 
 
 def notes(findings: Findings) -> list[str]:
