@@ -62,18 +62,6 @@ class Uncertainty:
         return reduce(add, self.parts.values(), 0.0)
 
 
-def numerical(
-    iteration: float,
-    discretisation: float,
-    domain: float,
-    increments: float = 0.0,
-    convergence: Convergence | None = None,
-) -> Uncertainty:
-    """By the causes that solutions have; `increments` of the load, where a body flows."""
-    parts = {"iteration": iteration, "discretisation": discretisation, "domain": domain}
-    return Uncertainty(parts | {"increments": increments}, convergence)
-
-
 def by_levels(
     values: Sequence[float],
     order: float,
@@ -93,8 +81,8 @@ def by_levels(
     least       of the discretisation, over the scale"""
     known = grid_convergence(values, order, resolution)
     domain, increments = (size / scale for size in repeated)
-    left = max(known.uncertainty / scale, least)
-    return numerical(iteration, left, domain, increments, known)
+    parts = {"iteration": iteration, "discretisation": max(known.uncertainty / scale, least)}
+    return Uncertainty(parts | {"domain": domain, "increments": increments}, known)
 
 
 def iteration(*solutions: ContactSolution) -> float:

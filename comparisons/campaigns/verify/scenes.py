@@ -32,7 +32,7 @@ from comparisons.common.tasks import Here, Tasks
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
-from comparisons.figures.uncertainty import numerical
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact
 from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.study import MODEL_ERROR, unsolved
@@ -257,7 +257,7 @@ def _by_itself(error: Figure) -> Figure:
     return Figure(
         *(MODEL_ERROR, error.quantity, "half_plane", value),
         against=WHOLE,
-        uncertainty=numerical(0.0, stated, 0.0, convergence=known),
+        uncertainty=Uncertainty({"discretisation": stated}, known),
         levels=(value,),
     )
 

@@ -11,7 +11,10 @@ from analytic.contact.problem import KKT_TOLERANCE, ContactSolution, solve_conta
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
-from comparisons.models.finite_element.bodies import BodyPair
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.level import Level
 from comparisons.models.operators import solve_on
 from comparisons.models.problem import Problem
 from fem.compliance.operator import FiniteElementCompliance
@@ -92,6 +95,14 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
     return MutualCompliance(
         (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share), turn),)
     )
+
+
+def compliance_again(problem: Problem, level: Level, half_block: bool = False) -> MutualCompliance:
+    """The compliance of a level of linear bodies, made again; a `half_block` ends an unbounded body
+    at half of its size."""
+    refinement = Refinement(level.grid.pitch, half_block=half_block)
+    bodies = bodies_of(problem, refinement, level.patches, Stages(), BodyCache())
+    return mutual_compliance(problem, bodies, level.grid)
 
 
 def solve_mutual(

@@ -12,7 +12,6 @@ from dataclasses import asdict
 from analytic.contact.problem import assessed
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator
-from comparisons.common.progress import Stages
 from comparisons.models.level import ModelRun
 from comparisons.models.operators import operator_of
 from comparisons.models.problem import Problem
@@ -27,14 +26,10 @@ def operators_of(
     half_plane = operator_of(problem, grid, problem.half_plane_effects)
     operators: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
     if "finite_element" in runs and not problem.scene.finite_element.nonlinear:
-        from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-        from comparisons.models.finite_element.contact import mutual_compliance
-        from comparisons.models.finite_element.mesh import Refinement
+        from comparisons.models.finite_element.contact import compliance_again
 
         level = runs["finite_element"].levels[0]
-        how = Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
-        bodies = bodies_of(problem, *how)  # made again
-        operators["finite_element"] = level.grid, mutual_compliance(problem, bodies, level.grid)
+        operators["finite_element"] = level.grid, compliance_again(problem, level)
     return operators
 
 

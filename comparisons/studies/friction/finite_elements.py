@@ -11,10 +11,7 @@ from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.partial_slip import SurfacePair
 from analytic.grid import HatGrid
 from analytic.stress_state import StressState
-from comparisons.common.progress import Stages
-from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.contact import MutualCompliance, mutual_compliance
-from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.finite_element.contact import MutualCompliance, compliance_again
 from comparisons.models.level import Level
 from comparisons.models.operators import is_layered, operator_of
 from comparisons.models.problem import Problem
@@ -44,10 +41,7 @@ def finite_element_slip(
 ) -> SlippedLevel:
     """Of the finite elements of a level, made again; a `half_block` ends an unbounded body at half
     of its size."""
-    grid = problem.grid(level.grid.pitch)
-    refinement = Refinement(grid.pitch, half_block=half_block)
-    bodies = bodies_of(problem, refinement, level.patches, Stages(), BodyCache())
-    operator = mutual_compliance(problem, bodies, grid)
+    grid, operator = level.grid, compliance_again(problem, level, half_block)
     slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
     if problem.scene.body.thickness is not None:
         last = slipped.states[-1]

@@ -10,7 +10,7 @@ from scenes import judged
 
 from comparisons.figures.figure import Figure, Figures, Findings, Series, Statement, figures_of
 from comparisons.figures.quantity import WHOLE
-from comparisons.figures.uncertainty import Uncertainty, numerical
+from comparisons.figures.uncertainty import Uncertainty
 
 BOUNDED = Figure("comparison", "peak_pressure", "half_plane", 0.01, {"friction": 0.1}, "other")
 
@@ -80,10 +80,10 @@ def test_a_verdict_that_is_fixed_survives_a_finer_solution(value, size, unknown,
 
 
 def test_parts_are_bounds_and_add():
-    stated = numerical(1e-3, 2e-3, 4e-3, 8e-3)
+    stated = Uncertainty({"iteration": 1e-3, "domain": 2e-3, "increments": 4e-3, "reading": 8e-3})
     assert stated.total == pytest.approx(15e-3)
     assert Uncertainty().total == 0.0
-    assert numerical(0.0, math.inf, 0.0).total == math.inf
+    assert Uncertainty({"discretisation": math.inf}).total == math.inf
 
 
 def test_a_value_is_judged_over_its_scale_and_a_difference_as_it_is():

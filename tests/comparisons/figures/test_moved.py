@@ -6,7 +6,7 @@ import pytest
 
 from comparisons.figures.figure import Column, Figure, Findings, Part, Series, Statement
 from comparisons.figures.moved import items_of, movement
-from comparisons.figures.uncertainty import Uncertainty, numerical
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.study import Run
 
 OTHER = {"scene.load.per_length": 1e5, "verdict": "inconclusive"}
@@ -17,7 +17,7 @@ PEAK = Figure(
     value=2e9,
     at={"friction": 0.1},
     scale=2e9,
-    uncertainty=numerical(1e-9, 1e-4, 0.0),
+    uncertainty=Uncertainty({"iteration": 1e-9, "discretisation": 1e-4}),
 )
 NAME = "contact.peak_pressure [half_plane, friction 0.1]"
 
@@ -56,7 +56,9 @@ def test_a_difference_moves_by_its_own_uncertainty():
 
 
 def test_of_an_uncertainty_that_is_unknown_the_known_parts_count():
-    figure = replace(PEAK, uncertainty=numerical(1e-9, float("inf"), 1e-3))
+    figure = replace(
+        PEAK, uncertainty=Uncertainty({"discretisation": float("inf"), "domain": 1e-3})
+    )
     (row,) = moved(figure, replace(figure, value=2e9 * (1.0 + 0.9e-3))).moved
     assert not row.beyond and row.stated == pytest.approx(1e-3 + 1e-9)
 

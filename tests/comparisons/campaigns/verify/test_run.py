@@ -41,7 +41,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.figures import convergence
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure
-from comparisons.figures.uncertainty import Uncertainty, numerical
+from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.study import MODEL_ERROR
 
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
@@ -155,7 +155,7 @@ def row(
 ) -> Row:
     """Of one case with an exact answer of 2."""
     levels = 1.9, 1.95, 2.0 * (1.0 + error)
-    uncertainty = uncertainty or numerical(0.0, stated, 0.0, convergence=KNOWN)
+    uncertainty = uncertainty or Uncertainty({"discretisation": stated}, KNOWN)
     more = {"scale": 2.0, "uncertainty": uncertainty, "levels": levels}
     figure = Figure("contact", "contact_length", "half_plane", levels[-1], **more)
     figures = compared(replace(figure, **fields), 2.0, "source", kind, converged)
@@ -182,7 +182,7 @@ def test_an_error_within_the_uncertainty_is_covered():
     assert pair(1e-3, 1.001e-3).covered and not pair(1e-3, 0.999e-3).covered
     assert not pair(-1e-3, 0.999e-3).covered
     assert pair(-1e-3, 2e-3).overestimation == pytest.approx(2.0)
-    three = numerical(1e-3, 2e-3, 4e-3, convergence=KNOWN)
+    three = Uncertainty({"iteration": 1e-3, "discretisation": 2e-3, "domain": 4e-3}, KNOWN)
     assert pair(-1e-3, uncertainty=three).overestimation == pytest.approx(7.0)
 
 
