@@ -1,5 +1,5 @@
 """Linear bodies by Newton's method and by PETSc's variational inequality: dense solutions, and the
-project's own solver."""
+project's own solver; Newton's method with an active set on bodies that are not linear."""
 
 import numpy as np
 import pytest
@@ -11,8 +11,9 @@ from analytic.contact.equilibrium import Constraints
 from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support
 from fem.body.surface import hat_forces
-from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.nonlinear import RESIDUAL, solve_nonlinear_contact, state_at_rest
 from fem.contact.variational_inequality import VariationalSolution, solve_variational_inequality
+from fem.solver.mumps import FemError
 
 
 def by_newton(grid, bodies, gap, load, hardness=np.inf):
@@ -126,3 +127,109 @@ def test_loads_that_cannot_be_borne_are_refused(grid, block, solve):
         solve([block], grid.smooth, 0.0)
     with pytest.raises(ValueError, match=r"exceeds the hardness|not between zero"):
         solve([block], grid.smooth, 3.0, 1.0)
+
+
+@pytest.fixture(scope="module")
+def newton(grid):
+    def solved(bodies, gap, start=None, **wanted):
+        start = state_at_rest(bodies, np.ones(grid.count)) if start is None else start
+        return solve_nonlinear_contact(bodies, gap, grid.weights, start, **wanted)
+
+    return solved
+
+
+def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
+    grid, block, block_matrix, gap_and_load, newton
+):
+    gap, load = gap_and_load
+    bodies = [grid.linear(block)]
+    solution = newton(bodies, gap, load=load)
+    pressure, approach = dense_contact(block_matrix, gap, grid.weights, load)
+    assert solution.state.load == load
+    opening = (gap + block_matrix @ pressure) / grid.pitch - approach
+    np.testing.assert_allclose(
+        solution.gap, opening, atol=1e-9 * np.ptp(block_matrix @ pressure) / grid.pitch
+    )
+    assert len(solution.residuals) == 1
+    again = newton(bodies, gap, approach=solution.state.approach)
+    np.testing.assert_allclose(again.state.pressure, pressure, atol=1e-9 * pressure.max())
+    assert again.state.load == pytest.approx(load, rel=1e-8)
+
+
+def test_the_way_to_a_load_does_not_matter(grid, block, newton):
+    bodies = [grid.linear(block)]
+    once = newton(bodies, grid.rough, load=0.6)
+    on = newton(bodies, grid.rough, start=once.state, load=0.3)
+    back = newton(bodies, grid.rough, load=0.3)
+    np.testing.assert_allclose(on.state.pressure, back.state.pressure, atol=1e-9)
+
+
+def test_friction_is_coupled(grid, block, newton):
+    """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
+    forces, friction = grid.compliance(block), 0.3
+    columns = [forces.apply(unit, friction) for unit in np.eye(grid.count)]
+    sliding = newton([grid.linear(block, friction)], grid.smooth, load=0.6)
+    assert sliding.iterations <= 10
+    pressure, _ = dense_contact(np.array(columns).T, grid.smooth, grid.weights, 0.6)
+    np.testing.assert_allclose(sliding.state.pressure, pressure, atol=1e-9 * pressure.max())
+    without, _ = dense_contact(forces.matrix(), grid.smooth, grid.weights, 0.6)
+    assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
+
+
+class Stiffening:
+    """K u (1 + s |u|^2): a smooth nonlinear body whose tangent is known, as a stand-in."""
+
+    symmetric, softness = True, np.ones(1)
+
+    def __init__(self, body, stiffening, limit=np.inf):
+        self.held, self.limit = body.held, limit
+        self.matrix, self.by = body.stiffness(), stiffening
+        self.accepted = []
+
+    def linearised(self, displacement):
+        """Componentwise stiffening of springs beside the linear body."""
+        from scipy.sparse import diags
+
+        u = displacement.ravel()
+        if np.abs(u).max() > self.limit:
+            raise FemError("too far")
+        force = self.matrix @ u + self.by * u**3
+        return force.reshape(-1, 2), self.matrix + diags(3.0 * self.by * u**2)
+
+    def accept(self, displacement):
+        self.accepted.append(displacement)
+
+
+def stiffening(grid, block, limit=np.inf):
+    return Stiffening(block, 0.02, limit), grid.linear(block)[1]
+
+
+def test_newton_converges_quadratically(grid, block, newton):
+    """From one load to the next with every hat touching before and after."""
+    bodies, gap = [stiffening(grid, block)], 0.002 * grid.smooth
+    start = newton(bodies, gap, load=0.6).state
+    solution = newton(bodies, gap, start=start, load=1.2)
+    history = np.array(solution.residuals[-1])
+    assert history[-1] <= RESIDUAL
+    late = np.log(history[(history > 1e-11) & (history < 0.1)])  # below is round-off
+    orders = np.diff(late[1:]) / np.diff(late[:-1])
+    assert len(orders) >= 2
+    assert np.all((orders > 1.7) & (orders < 2.3)), history
+
+
+def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, newton):
+    """Increments are bisected, each is accepted once, and the end is where it is without limit."""
+    free = newton([stiffening(grid, block)], grid.smooth, load=0.6)
+    reach = np.abs(free.state.displacements[0]).max()
+    limited, contact = stiffening(grid, block, 1.02 * reach)
+    led = newton([(limited, contact)], grid.smooth, load=0.6)
+    np.testing.assert_allclose(led.state.pressure, free.state.pressure, atol=1e-7)
+    assert len(limited.accepted) == len(led.residuals) > 1
+    np.testing.assert_array_equal(limited.accepted[-1], led.state.displacements[0])
+
+
+def test_what_does_not_converge_is_an_error(grid, block, newton):
+    stuck, contact = stiffening(grid, block, 1e-6)
+    with pytest.raises(FemError, match=r"did not converge beyond 0 % of the load: .*too far"):
+        newton([(stuck, contact)], grid.smooth, load=0.6)
+    assert stuck.accepted == []

@@ -1,17 +1,23 @@
-"""Finite deformation of a scene: by either solver, and where contact ends with the pressures."""
+"""Finite deformation of a scene: by either solver, and where contact ends with the pressures; flow
+at finite strains, of which a light load is that of small strains; the change of peak pressure and
+length by a law of elasticity, as `peak_change` has it, under a rigid roller."""
 
 from dataclasses import replace
+from functools import cache
 from types import SimpleNamespace
 from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, finite_elements, problem
+from scenes import STEEL, changed, finite_elements, problem
 
+from analytic.material import Law, Material
+from analytic.material.third_order import LENGTH_OVER_PEAK, peak_change
 from comparisons.models.finite_element import level as finite_element_level_module
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
 from comparisons.models.finite_element.nonlinear import pressed_finitely
 from comparisons.models.posing import problem_of
+from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
 from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
@@ -138,3 +144,115 @@ def test_a_cap_holds_by_deformed_area_and_small_loads_are_the_linear_theorys(fri
         left.append(abs(shears["finite"] / shears["linear"] - 1.0))
     # under friction the difference changes its sign between these loads
     assert left[0] < 0.03 and left[1] < (4e-3 if friction else 0.4 * left[0])
+
+
+LIGHT = {
+    "roller": {"radius": 0.8, "rigid": True},
+    "body": {**STEEL, "yield_stress": 1e8, "law": "hencky"},
+    "load": {"hertz_peak_pressure": 2.4e8, "friction": 0.1},
+    "resolution": {"elements": 4, "levels": 2},
+    "stress": {"points": [20, 10]},
+}
+
+
+COATING = {"thickness": 1e-3, "youngs_modulus": 300e9, "poissons_ratio": 0.25, "law": "hencky"}
+
+
+def level_of(deformation, coating):
+    settings = {"plastic": True, "deformation": deformation}
+    scene = LIGHT | ({"coating": coating} if coating else {})
+    return finite_elements(problem(changed(scene, finite_element=settings)), fields=True)
+
+
+@pytest.mark.parametrize("coating", [None, COATING], ids=["bare", "coated"])
+def test_at_light_loads_finite_strains_are_small(coating):
+    small, finite = (level_of(deformation, coating) for deformation in ("linear", "finite"))
+    assert small.plastic_strain == pytest.approx(finite.plastic_strain, rel=0.02) != 0.0
+    assert finite.contact_length == pytest.approx(small.contact_length, rel=2e-3)
+    peaks = [level.solution.pressure.max() for level in (small, finite)]
+    assert peaks[1] == pytest.approx(peaks[0], rel=2e-3)
+    largest = [level.stress.extremes["tau1"].value for level in (small, finite)]
+    assert np.isfinite([level.stress.maxima["txz"] for level in (small, finite)]).all()
+    assert largest[1] == pytest.approx(largest[0], rel=5e-3)
+    assert finite.mesh_field.others["residual_von_mises"].max() > 1e6
+    assert finite.material is not None and small.material is None
+
+
+@pytest.mark.parametrize("deformation", ["linear", "finite"])
+def test_no_shear_is_larger_than_the_metal_bears(deformation):
+    """Without hardening that is Y/sqrt 3; over J, where Kirchhoff's stress flows."""
+    posed = problem(
+        {
+            "roller": {"radius": 8e-3, "rigid": True},
+            "body": {**STEEL, "yield_stress": 340e6},
+            "load": {"hertz_peak_pressure": 1.3e9, "friction": 0.2},
+            "stress": {"points": [120, 40]},
+            "finite_element": {"plastic": True, "deformation": deformation},
+            "resolution": {"pitch": "20 um"},
+        }
+    )
+    level = finite_elements(posed, fields=True)
+    bulk = posed.scene.body.material.bulk_modulus
+    compressed = level.solution.pressure.max() / bulk if deformation == "finite" else 0.0
+    stress = level.stress
+    for name, most in (("tau1", 340e6 / 3**0.5), ("txz", 340e6 / 3**0.5), ("von_mises", 340e6)):
+        assert abs(stress.extremes[name].value) <= most * np.exp(compressed) * (1.0 + 1e-12)
+    assert stress.extremes["tau1"].value == pytest.approx(340e6 / 3**0.5, rel=0.01)
+
+
+RATIO = 0.05  # half-width over radius
+
+
+@cache
+def under_rigid_roller(material: Material) -> tuple[float, float]:
+    """Peak pressure [Pa] and contact length [m]."""
+    body = {"youngs_modulus": material.youngs_modulus, "poissons_ratio": material.poissons_ratio}
+    body["law"] = material.law.name
+    if material.law.murnaghan is not None:
+        body["murnaghan"] = dict(zip("lmn", material.law.murnaghan, strict=True))
+    tables = {
+        "roller": {"radius": 5e-3, "rigid": True},
+        "body": body,
+        "load": {"hertz_peak_pressure": 0.5 * RATIO * material.plane_strain_modulus},
+        "finite_element": {"deformation": "finite"},
+    }
+    posed = problem(tables)
+    level = finite_elements(posed)
+    return float(level.solution.pressure.max()), level.contact_length
+
+
+def changes(material: Material) -> tuple[float, float]:
+    """Of peak pressure and length from the neo-Hookean law, over p0/E."""
+    neo_hookean = Material(material.youngs_modulus, material.poissons_ratio, Law())
+    strain = 0.5 * RATIO * material.plane_strain_modulus / material.youngs_modulus
+    pairs = zip(under_rigid_roller(material), under_rigid_roller(neo_hookean), strict=True)
+    return tuple((value / plain - 1.0) / strain for value, plain in pairs)
+
+
+@pytest.mark.parametrize(
+    "name", ["carbon steel", "aluminium alloy", "tungsten", "niobium", "fused silica", "PMMA"]
+)
+def test_measured_laws_change_a_contact_as_their_constants_say(name):
+    """Of first order in the load; what is left is of the next order, 3 % of strain here."""
+    material = solids()[name].material
+    expected = peak_change(material.law, material)
+    peak, length = changes(material)
+    assert peak == pytest.approx(expected, rel=0.2, abs=0.1)
+    assert length == pytest.approx(LENGTH_OVER_PEAK * peak, rel=0.3, abs=0.1)
+
+
+@pytest.mark.parametrize("law", [Law("hencky"), Law("st-venant-kirchhoff")])
+@pytest.mark.parametrize("poissons_ratio", [0.1, 0.3, 0.45])
+def test_other_laws_too(law, poissons_ratio):
+    material = Material(2e9, poissons_ratio, law)
+    peak, _ = changes(material)
+    assert peak == pytest.approx(peak_change(law, material), rel=0.04)
+
+
+def test_the_third_constant_has_no_part_in_plane_strain():
+    material = solids()["carbon steel"].material
+    ell, m, _ = material.law.murnaghan
+    without = Material(
+        material.youngs_modulus, material.poissons_ratio, Law("murnaghan", (ell, m, 0.0))
+    )
+    assert under_rigid_roller(without) == under_rigid_roller(material)

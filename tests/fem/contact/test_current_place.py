@@ -1,15 +1,18 @@
-"""Two deformed bodies: forces in balance, the tangent, conforming surfaces, and known limits.
+"""A rigid roller at the current place: its shapes, the gap's derivative, forces in balance; two
+deformed bodies: forces in balance, the tangent, conforming surfaces, and known limits.
 
-Lengths in half-widths of the contact that Hertz expects, stresses in Young's moduli.
+Lengths of pressed bodies in half-widths of the contact that Hertz expects, stresses in Young's
+moduli.
 """
 
 from functools import cache
 
 import numpy as np
 import pytest
-from blocks import structured_block
+from blocks import moved, structured_block
 from pressed_bodies import neo_hookean_energy, press_finitely
 from scenes import hat_nodes
+from scipy.integrate import trapezoid
 
 from analytic.contact.patches import contact_patches
 from analytic.material import Material
@@ -18,7 +21,7 @@ from fem.body.surface import hat_forces
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.deformed_roller import DeformedSurface, PairContact
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
-from fem.contact.rigid_roller import parabola
+from fem.contact.rigid_roller import STEEPEST, CurrentContact, circle, parabola
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
 from fem.stress.maximum import maximum
@@ -26,10 +29,91 @@ from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.real_shape import roughen
 
+RADIUS = 3.0
+HATS = hat_nodes(-0.8, 0.16, 11)
+
+
+@pytest.fixture(scope="module")
+def wavy():
+    mesh = structured_block(
+        np.linspace(-1.5, 1.5, 13), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x), seed=2
+    )
+    return elastic_body(mesh, Material(1.0, 0.3), Support())
+
+
+PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
+
+
+@pytest.mark.parametrize("roller", [circle(RADIUS), parabola(RADIUS), parabola(np.inf)])
+def test_slopes_and_curvatures_are_derivatives(roller):
+    x, h = np.linspace(-0.85 * RADIUS, 0.85 * RADIUS, 41), 1e-5
+    rise, slope, bend = roller(x)
+    ahead, behind = roller(x + h), roller(x - h)
+    np.testing.assert_allclose(slope, (ahead[0] - behind[0]) / (2 * h), atol=1e-8)
+    np.testing.assert_allclose(bend, (ahead[1] - behind[1]) / (2 * h), atol=1e-7)
+    assert rise[20] == 0.0
+
+
+def test_the_circle_is_one_and_goes_on_straight():
+    x = np.linspace(-0.85 * RADIUS, 0.85 * RADIUS, 41)
+    rise, _, _ = circle(RADIUS)(x)
+    np.testing.assert_allclose(x**2 + (RADIUS - rise) ** 2, RADIUS**2, rtol=1e-14)
+    far = np.array([STEEPEST * RADIUS, 2.0 * RADIUS, 5.0 * RADIUS])
+    rise, slope, bend = circle(RADIUS)(far)
+    np.testing.assert_allclose(slope, 2.0)
+    np.testing.assert_allclose(np.diff(rise), 2.0 * np.diff(far))
+    assert np.all(bend[1:] == 0.0)
+
+
+def test_undeformed_it_is_the_linear_theorys(wavy):
+    """Forces along the roller's normal, and the gap to the real boundary."""
+    terms = CurrentContact(wavy, HATS, parabola(RADIUS)).at(0.0 * wavy.nodes, PRESSURE)
+    forces = hat_forces(wavy.surface, HATS, lambda x: (x / RADIUS, np.ones_like(x)))
+    component = (2 * wavy.surface.point[:, None] + np.arange(2)).ravel()
+    np.testing.assert_allclose(terms.force.toarray()[component], forces.toarray(), atol=1e-15)
+    assert abs(terms.force).sum() == pytest.approx(abs(forces).sum())
+    hat = np.interp(fine := np.linspace(-1.0, 1.0, 200001), HATS, np.eye(len(HATS))[4])
+    x, z = wavy.points[wavy.top.point].T
+    edge = np.clip(np.searchsorted(x[::2], fine) - 1, 0, len(x) // 2 - 1)
+    t = (fine - x[::2][edge]) / np.diff(x[::2])[edge]
+    surface = z[::2][edge] * (1 - t) * (1 - 2 * t) + z[1::2][edge] * 4 * t * (1 - t)
+    surface = surface + z[2::2][edge] * t * (2 * t - 1)
+    wanted = trapezoid(hat * (surface + fine**2 / (2 * RADIUS)), fine)
+    assert terms.gap[3] == pytest.approx(wanted, rel=1e-7)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_derivatives(wavy, friction):
+    contact = CurrentContact(wavy, HATS, circle(RADIUS), friction)
+    at, step, h = moved(wavy, 0.1, 1), moved(wavy, 1.0, 2), 1e-5
+    terms = contact.at(at, PRESSURE)
+    ahead, behind = (contact.at(at + way * h * step, PRESSURE) for way in (1, -1))
+    gap = (ahead.gap - behind.gap) / (2 * h)
+    np.testing.assert_allclose(terms.gradient.T @ step.ravel(), gap, atol=1e-9 * abs(gap).max())
+    force = (ahead.force - behind.force) @ PRESSURE / (2 * h)
+    scale = np.abs(force).max()
+    np.testing.assert_allclose(terms.stiffness @ step.ravel(), force, atol=1e-8 * scale)
+    assert contact.frictionless is not bool(friction)
+    if not friction:
+        assert terms.force is terms.gradient
+
+
+def test_forces_are_along_the_current_normal_and_tangent(wavy):
+    """In sum: the load is the pressure's, and friction pulls towards +x along the tangent."""
+    friction, at = 0.3, moved(wavy, 0.1, 1)
+    force = CurrentContact(wavy, HATS, circle(RADIUS)).at(at, PRESSURE).force @ PRESSURE
+    pulled = CurrentContact(wavy, HATS, circle(RADIUS), friction).at(at, PRESSURE).force @ PRESSURE
+    along, down = force.reshape(-1, 2).sum(axis=0)
+    assert down == pytest.approx(0.16 * PRESSURE.sum(), rel=1e-13)
+    pulled_along, pulled_down = pulled.reshape(-1, 2).sum(axis=0)
+    assert pulled_along - along == pytest.approx(friction * down, rel=1e-13)
+    assert pulled_down - down == pytest.approx(-friction * along, rel=1e-12)
+
+
 POISSON = 0.3
 MODULUS = 1.0 / (1.0 - POISSON**2)
-HATS = hat_nodes(-0.8, 0.16, 11)
-PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
+
+
 SIZE = 60.0  # of a block that is pressed
 
 
