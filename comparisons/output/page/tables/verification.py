@@ -144,7 +144,7 @@ def signed(run: Run) -> Names:
         ("question", question),
         ("uncertainty", f"every stated one covers {percent_as_written(COVERAGE)}"),
         ("solved by", _listed(run.record["versions"])),
-        ("made", ", ".join(filter(None, made.values()))),
+        ("made", _listed(made)),
     ]
     return Names([*rows, *((name, "") for name in TO_SIGN)])
 
