@@ -33,7 +33,6 @@ CLOSE_REACH = 0.1  # half-widths to either side, at most
 TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
 CLEAR = 0.04  # share of that axis at either end without one
 UNSEEN = 0.01  # share of it that is too narrow to be seen
-MOST_POINTS = 600  # of a filled outline
 POINTS_PER_INCH = 90  # of an outline across a panel
 
 
@@ -171,8 +170,11 @@ def draw_difference(axes: "Axes", run: Run, across: tuple[float, float], unit: S
     axes.set_ylabel(name)
 
 
-def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Scale) -> None:
-    """Every model's surfaces under load over `across` [m], x in `unit`; filled as the last's."""
+def draw_surfaces(
+    axes: "Axes", run: Run, across: tuple[float, float], unit: Scale
+) -> tuple[float, Scale]:
+    """Every model's surfaces under load over `across` [m], x in `unit`; filled as the last's. The
+    height [m] that is drawn as 0, and the unit of the others."""
     drawn: dict[str, tuple[np.ndarray, ...]] = {}
     for name, level in reversed(run.levels(run.deciding_friction).items()):
         shown = style.near(level.grid.x, across, level.grid.pitch)
@@ -209,35 +211,23 @@ def draw_surfaces(axes: "Axes", run: Run, across: tuple[float, float], unit: Sca
     axes.text(0.5 * (first + last), 0.95, pressing, ha="center", va="top", **names)
     axes.text(first + 0.01 * (last - first), 0.05, "body", va="bottom", **names)
     axes.set_ylabel(f"height [{up.name}]")
+    return middle, up
 
 
 def surface_picture(run: Run) -> style.Picture:
-    """Surfaces of the last model before and under load; below, the gaps of all. Heights are means
-    over pressure elements; the body's displacement vanishes at the mean of both ends."""
+    """Surfaces before and under load; below, the gaps. Heights are means over pressure elements;
+    the body's displacement vanishes at the mean of both ends."""
     problem, levels = run.problem, run.levels(run.deciding_friction)
     name, level = list(levels.items())[-1]
-    x, body = level.grid.x, deformed_height(problem, level)
-    roller, body_before = body + level.solution.gap, mean_height(problem, level.grid)
+    x, body = level.grid.x, mean_height(problem, level.grid)
     parabola = x**2 / (2.0 * problem.scene.roller.radius)
-    roller_before = parabola + np.max(body_before - parabola)  # at first touch
+    roller = parabola + np.max(body - parabola)  # at first touch
     drawn, (above, below) = panels(style.COLUMN, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14, foot=0.51)
-    along, up = scale_of(x, "m"), scale_of([np.ptp(roller), np.ptp(body)], "m")
-    low = min(body.min(), body_before.min())
-    high = max(roller.max(), roller_before.max())
-    low -= 0.2 * (high - low)
-    few = slice(None, None, 1 + len(x) // MOST_POINTS)
-    place, heights = x / along.factor, (body / up.factor, roller / up.factor)
-    outlines = place[few], *(height[few] for height in heights)
-    style.fill_bodies(above, *outlines, low / up.factor, high / up.factor)
-    labels = (None, None), ("before loading, at first touch", "under load")
-    for under, before, words in zip(heights, (body_before, roller_before), labels, strict=True):
+    along = scale_of(x, "m")
+    place, (middle, up) = x / along.factor, draw_surfaces(above, run, (x[0], x[-1]), along)
+    for heights, words in ((body, None), (roller, "before loading, at first touch")):
         thin = {**style.REFERENCE, "linewidth": 0.8}
-        above.plot(place, before / up.factor, label=words[0], **thin)
-        above.plot(place, under, label=words[1], **style.OUTLINE)
-    above.set_ylabel(f"height [{up.name}]")
-    above.text(0.02, 0.04, "body", transform=above.transAxes)
-    pressing = problem.scene.smooth_body
-    above.text(0.5, 0.95, pressing, transform=above.transAxes, ha="center", va="top")
+        above.plot(place, (heights - middle) / up.factor, label=words, **thin)
     above.legend(loc="lower right", borderaxespad=0.2)
     gaps = {model: np.maximum(shown.solution.gap, 0.0) for model, shown in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
@@ -247,7 +237,8 @@ def surface_picture(run: Run) -> style.Picture:
     below.set_ylabel(f"gap [{unit.name}]")
     below.set_ylim(0.0, 1.3 * below.dataLim.y1)  # names stand above the curves
     below.legend(loc="upper center", ncols=3, columnspacing=1.0, borderaxespad=0.1)
-    approach = with_unit(float(np.max(body_before - body)), "m", 3)
+    approach = with_unit(float(np.max(body - deformed_height(problem, level))), "m", 3)
+    pressing = problem.scene.smooth_body
     return style.picture(
         drawn,
         f"Surfaces of {pressing} and body before and under load, and the gap between them; the "
