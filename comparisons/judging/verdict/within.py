@@ -7,20 +7,22 @@ It is the largest `Figure.reach` of the judged model errors. What else may move 
 into its uncertainty or its estimates, where the verdict sees it, too; what leaves all of them
 unknown is said in its place."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, Decimal
 from math import hypot, isfinite
 
 from comparisons.common.numbers import percent, percent_as_written, plain, with_unit
+from comparisons.drawing.tables import in_words
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
-from comparisons.judging import coupling, yielding
+from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, SAMPLING
 from comparisons.judging.model_error.show import law_range, leaves_flow_out
-from comparisons.judging.study import MODEL_ERROR, Run
+from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
 from comparisons.models.assumptions import question
 
 DIGITS = 2  # of a tolerance that a user would write
+OF_LEVELS = (contact.NAME, "running_in")  # studies whose solutions are said level by level
 SMALL = 0.02  # of an error's reach: what is not modelled is not said below it
 
 
@@ -105,17 +107,21 @@ def _why_unknown(run: Run) -> str:
 
 
 def _not_converged(run: Run) -> list[str]:
-    said = [
+    """Levels of the models, and what studies say of their own solutions."""
+    said = dict.fromkeys(
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
-        for name, model in run.runs.items()
+        for case in run.solved.cases
+        for name, model in case.runs.items()
         for level in model.levels
         if not level.converged
+    )
+    others = [
+        replace(words, name=study.replace("_", " "))
+        for study, found in run.findings.items()
+        for words in found.statements
+        if (words.name, words.text) == (CONVERGED, "no") and study not in OF_LEVELS
     ]
-    said += [
-        f"half-plane with normal-tangential coupling, friction {plain(change.friction)}"
-        for change in run.data(coupling.NAME) or ()
-        if not change.converged
-    ]
+    said = [*said, *(name for name, _ in in_words(others))]
     run_in = run.problem.surface.run_in
     if run_in is not None and not run_in.converged:
         failed = sum(not one.converged for one in run_in.passes)
