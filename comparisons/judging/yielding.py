@@ -7,7 +7,7 @@ Nomenclature: Y yield stress in tension, k in shear (Y/sqrt 3 by von Mises, Y/2 
 hardness, tau1 principal shear in the plane, mu friction coefficient, G shear modulus, E* combined
 modulus."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import inf, pi
 from typing import Literal
@@ -18,7 +18,7 @@ from analytic.exact.hertz import hertz_extremes
 from analytic.exact.shakedown import UNIT, shakedown_limit
 from analytic.surface.roughness import summits
 from comparisons.common.numbers import percent, plain, significant, with_unit
-from comparisons.figures.figure import Figure, Findings, Statement, figures_of
+from comparisons.figures.figure import Figure, Figures, Findings, Statement, figures_of
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.contact import AT_HARDNESS
@@ -33,6 +33,7 @@ from comparisons.scenes.scene import Scene
 NAME = "yield"
 FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
 BEYOND_DOUBT, AT_SUCH_STRESSES = "beyond doubt", "at such stresses"  # names of what is said of flow
+OVER_FIRST_FLOW = "over_first_flow_tresca", "over_first_flow_von_mises"
 PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
 QUANTITIES = {
     "yield_stress": Quantity("yield stress", "Pa"),
@@ -72,50 +73,40 @@ LEVEL = 1e-6  # of the trace's height: summits that spread less are all as high
 
 
 @dataclass(frozen=True)
-class FlowCheck:
-    """What one friction coefficient asks of the body; stresses in Pa."""
-
-    friction: float
-    tau1: float  # largest, of an elastic half-plane (with the cap of the scene's hardness, if any)
-    von_mises: float | None  # largest equivalent stress; None: no field, tau1 is by the peak
-    uncertainty: float  # of tau1, relative
-    peak: float  # pressure
-    # share of the contact at or above the hardness, or 3 Y; None where neither is known
-    at_hardness: float | None
-
-    def over_first_flow(self, yield_stress: float) -> tuple[float, float | None]:
-        """Largest stress over that of first flow by Tresca (in the plane), by von Mises."""
-        mises = None if self.von_mises is None else self.von_mises / yield_stress
-        return 2.0 * self.tau1 / yield_stress, mises
-
-
-@dataclass(frozen=True)
 class FlowAssessment:
-    """All friction coefficients of a scene."""
+    """What elastic bodies bear in a scene, against what its body does; limits in Pa."""
 
+    scene: Scene
     # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
     # | idle (flow was computed, and moves no figure that is judged)
     flow: Literal["elastic", "cap", "plastic", "idle"]
-    # Y [Pa]: the scene's, or a third of its hardness; None where neither is given
+    # Y: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None
-    hardness: float | None  # H [Pa]: the scene's, or three times its yield stress
-    # G/(2 pi) [Pa], above which no crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609);
-    # infinite for a body below STIFF
-    ideal_strength: float
-    checks: tuple[FlowCheck, ...]  # one a friction coefficient
-    asked: bool = True  # whether the question is of bodies that flow where they would
+    hardness: float | None  # H: the scene's, or three times its yield stress
+    # the largest stresses, and what they are over, by friction coefficient
+    figures: Figures
 
     @property
-    def worst(self) -> FlowCheck:
-        return max(self.checks, key=lambda check: check.tau1)
+    def worst(self) -> Figure:
+        """The largest tau1 [Pa] of all friction coefficients."""
+        return max(self.figures.of(quantity="tau1_max"), key=lambda figure: figure.value)
+
+    def there(self, quantity: str) -> float | None:
+        """The value of another figure where tau1 is the largest, if it is known."""
+        figure = self.figures.one(quantity=quantity, friction=self.worst.friction)
+        return figure and figure.value
 
     @property
     def ratio(self) -> float | None:
         """Largest stress over that of first flow, by whichever criterion flows first."""
-        if self.yield_stress is None:
-            return None
-        tresca, mises = self.worst.over_first_flow(self.yield_stress)
-        return max(tresca, mises or 0.0)
+        return max(filter(None, map(self.there, OVER_FIRST_FLOW)), default=None)
+
+    @property
+    def ideal_strength(self) -> float:
+        """G/(2 pi) [Pa], above which no crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609);
+        infinite for a body below STIFF."""
+        body = self.scene.body
+        return body.material.shear_modulus / (2.0 * pi) if body.youngs_modulus > STIFF else inf
 
     @property
     def is_certain(self) -> bool:
@@ -131,7 +122,7 @@ class FlowAssessment:
     @property
     def least_shear(self) -> float:
         """The largest tau1 [Pa] less its uncertainty."""
-        return self.worst.tau1 * (1.0 - self.worst.uncertainty)
+        return self.worst.value * (1.0 - self.worst.numerical)
 
     @property
     def beyond_doubt(self) -> str:
@@ -139,7 +130,7 @@ class FlowAssessment:
         scene stands for its flow: a sentence without its full stop, empty if nothing."""
         if self.exceeded is None:
             return ""
-        shear = with_unit(self.worst.tau1, "Pa", 2)
+        shear = with_unit(self.worst.value, "Pa", 2)
         said = f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the"
         if self.exceeded == self.ideal_strength:
             strength = with_unit(self.ideal_strength, "Pa", 2)
@@ -150,11 +141,24 @@ class FlowAssessment:
     @property
     def exceeded(self) -> float | None:
         """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
-        if self.flow != "elastic" or not self.asked:
+        if self.flow != "elastic" or self.scene.asks_elastic:
             return None
         if self.is_certain:
             return self.yield_in_shear
         return self.ideal_strength if self.least_shear > self.ideal_strength else None
+
+    @property
+    def at_such_stresses(self) -> str:
+        """That a body flows under the shears of the half-plane where no model of the scene can show
+        it: for want of a yield stress, by what its solid typically bears; or because elastic bodies
+        are the question. A clause, or nothing."""
+        shear, typical = with_unit(self.worst.value, "Pa", 2), typical_shears(self.scene.body)
+        where = ""
+        if self.ratio is None and typical and self.least_shear > BOTH_CRITERIA * typical[1]:
+            where = flow_of(self.scene.body, *typical)
+        elif self.scene.asks_elastic and self.is_certain:
+            where = f"beyond a shear of Y/√3 = {with_unit(self.yield_in_shear, 'Pa', 2)}"
+        return f"it flows at such stresses: {where}, the largest is {shear}" if where else ""
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
@@ -164,7 +168,6 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     selection = before[MODEL_ERROR].data.selection if MODEL_ERROR in before else None
     if selection is not None and FLOW in selection.whole | selection.found:
         flow = replace(flow, flow="idle" if FLOW in selection.found else "plastic")
-    source = "half_plane" if "half_plane" in solved.runs else "finite_element"
     of_scene = {
         "yield_stress": flow.yield_stress,
         "hardness": flow.hardness,
@@ -180,30 +183,21 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         slope = solved.problem.surface.info.roughness.rms_slope
         of_scene["plasticity_index_slope"] = relative * slope
     figures, said = figures_of(NAME, "scene", of_scene), [Statement("flow", flow.flow)]
-    limit = flow.exceeded if solved.plan.compares else None
-    for check in flow.checks:
-        at = {"friction": check.friction}
-        unsure = Uncertainty({"numerical": check.uncertainty})
-        values = {"tau1_max": check.tau1, "von_mises_max": check.von_mises}
-        if flow.yield_stress is not None:
-            tresca, mises = check.over_first_flow(flow.yield_stress)
-            values |= {"over_first_flow_tresca": tresca, "over_first_flow_von_mises": mises}
-            values["peak_pressure_over_shear_yield"] = check.peak / flow.yield_in_shear
-        values["share_at_hardness"] = check.at_hardness
-        for figure in figures_of(NAME, source, values, unsure, at):
-            if figure.quantity == "share_at_hardness":
-                figure = replace(figure, scale=1.0)
-            if figure.quantity == "tau1_max" and limit is not None and check is flow.worst:
-                figure = replace(figure, bounds=(0.0, limit / figure.scale))
-            figures.append(figure)
+    limit, source = flow.exceeded if solved.plan.compares else None, flow.worst.source
+    for figure in flow.figures:
+        if figure is flow.worst and limit is not None:
+            figure = replace(figure, bounds=(0.0, limit / figure.scale))
+        figures.append(figure)
+    for friction in solved.problem.scene.load.friction:
+        at = {"friction": friction}
         if flow.hardness is not None:  # else nothing says what it is over
-            limits = {"shakedown_limit": shakedown_limit(check.friction)[0]}
+            limits = {"shakedown_limit": shakedown_limit(friction)[0]}
             figures += figures_of(NAME, "scene", limits, None, at)
-        said.append(Statement("read", PEAK if check.von_mises is None else FIELD, source, at))
+        field = flow.figures.one(quantity="von_mises_max", friction=friction)
+        said.append(Statement("read", PEAK if field is None else FIELD, source, at))
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data.wholes)
-    at_such = flows_at_such(solved.problem.scene, flow)
-    flows = {BEYOND_DOUBT: flow.beyond_doubt, AT_SUCH_STRESSES: at_such}
+    flows = {BEYOND_DOUBT: flow.beyond_doubt, AT_SUCH_STRESSES: flow.at_such_stresses}
     said += [Statement(name, text, source) for name, text in flows.items() if text]
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
@@ -225,48 +219,42 @@ def _figures_of_flow(problem: Problem, wholes: tuple[Level, ...]) -> list[Figure
 def flow_assessment(solved: Solved) -> FlowAssessment:
     """Of the half-plane where it was solved, else of the finite elements."""
     scene = solved.problem.scene
-    plastic = scene.finite_element.plastic
     yield_stress, hardness = scene.body.yield_stress, scene.body.hardness
+    flow = "plastic" if scene.finite_element.plastic else "elastic" if hardness is None else "cap"
     hardness = hardness or (yield_stress and TABOR * yield_stress)
     yield_stress = yield_stress or (hardness and hardness / TABOR)
-    return FlowAssessment(
-        flow="plastic" if plastic else "elastic" if scene.body.hardness is None else "cap",
-        yield_stress=yield_stress,
-        hardness=hardness,
-        ideal_strength=scene.body.material.shear_modulus / (2.0 * pi)
-        if scene.body.youngs_modulus > STIFF
-        else inf,
-        checks=tuple(_check(case, hardness) for case in solved.cases),
-        asked=not scene.asks_elastic,
-    )
+    figures = Figures(f for case in solved.cases for f in _figures(case, yield_stress, hardness))
+    return FlowAssessment(scene, flow, yield_stress, hardness, figures)
 
 
-def _check(case: Case, hardness: float | None) -> FlowCheck:
+def _figures(case: Case, yield_stress: float | None, hardness: float | None) -> Iterator[Figure]:
+    """The largest stresses of an elastic body (with the cap of the scene's hardness, if any), by
+    the peak pressure where there is no field; over those of first flow by Tresca, in the plane, and
+    by von Mises; and the contact at the hardness or above."""
     problem, friction = case.problem, case.friction
     run = case.runs.get("half_plane") or next(iter(case.runs.values()))
-    level, field = run.finest, run.finest.stress
+    level, field, stated = run.finest, run.finest.stress, judged(run, problem)
     pressure, weights = level.solution.pressure, level.grid.weights
-    peak = float(pressure.max())
-    stated = judged(run, problem)
+    peak, values = float(pressure.max()), {}
     if field is None:
-        tau1, mises = peak * hertz_extremes(UNIT, friction).tau1.value, None
+        values["tau1_max"] = peak * hertz_extremes(UNIT, friction).tau1.value
         uncertainty = stated["peak_pressure"].numerical
         uncertainty += 0.0 if problem.scene.profile is None else FROM_PEAK
     else:
-        tau1, mises = (abs(field.extremes[name].value) for name in ("tau1", "von_mises"))
+        largest = {name: abs(field.extremes[name].value) for name in ("tau1", "von_mises")}
+        values = {f"{name}_max": value for name, value in largest.items()}
         uncertainty = stated["tau1_max"].numerical
-    share = None
+    if yield_stress is not None:
+        first = dict(zip(values, (0.5, 1.0), strict=False))  # over Y
+        over = [values[name] / (share * yield_stress) for name, share in first.items()]
+        values |= dict(zip(OVER_FIRST_FLOW, over, strict=False))
+        values["peak_pressure_over_shear_yield"] = 3.0**0.5 * peak / yield_stress
     if hardness is not None:
         touching = weights[pressure > 0.0].sum()
-        share = float(weights[pressure >= AT_HARDNESS * hardness].sum() / touching)
-    return FlowCheck(
-        friction=friction,
-        tau1=tau1,
-        von_mises=mises,
-        uncertainty=uncertainty,
-        peak=peak,
-        at_hardness=share,
-    )
+        values["share_at_hardness"] = weights[pressure >= AT_HARDNESS * hardness].sum() / touching
+    unsure = Uncertainty({"numerical": uncertainty})
+    for figure in figures_of(NAME, run.name, values, unsure, {"friction": friction}):
+        yield replace(figure, scale=1.0) if figure.quantity == "share_at_hardness" else figure
 
 
 def may_flow(run: Run, at_any: bool = False) -> str:
@@ -275,47 +263,35 @@ def may_flow(run: Run, at_any: bool = False) -> str:
 
     at_any  whether it would at any typical yield stress"""
     flow, body = run.data(NAME), run.problem.scene.body
-    if flow.ratio is not None or body.youngs_modulus <= STIFF or not flow.asked:
+    if flow.ratio is not None or body.youngs_modulus <= STIFF or flow.scene.asks_elastic:
         return ""
-    shear, typical = with_unit(flow.worst.tau1, "Pa", 2), typical_shears(body)
+    shear, typical = with_unit(flow.worst.value, "Pa", 2), typical_shears(body)
     if typical is None:
         below = f"the figures are those of an elastic body; with a shear yield below {shear} it"
         return "" if at_any else f"{below} flows"
-    if flow.worst.tau1 < typical[1 if at_any else 0]:
+    if flow.worst.value < typical[1 if at_any else 0]:
         return ""
     return f"{flow_of(body, *typical)}, and the largest here is {shear}"
-
-
-def flows_at_such(scene: Scene, flow: FlowAssessment) -> str:
-    """That a body flows under the shears of the half-plane where no model of the scene can show it:
-    for want of a yield stress, by what its solid typically bears; or because elastic bodies are the
-    question. A clause, or nothing."""
-    shear, typical = with_unit(flow.worst.tau1, "Pa", 2), typical_shears(scene.body)
-    where = ""
-    if flow.ratio is None and typical and flow.least_shear > BOTH_CRITERIA * typical[1]:
-        where = flow_of(scene.body, *typical)
-    elif scene.asks_elastic and flow.is_certain:
-        where = f"beyond a shear of Y/√3 = {with_unit(flow.yield_in_shear, 'Pa', 2)}"
-    return f"it flows at such stresses: {where}, the largest is {shear}" if where else ""
 
 
 def flow_sentence(run: Run) -> str:
     """The one thing to know of flow beside the verdict, without its full stop."""
     flow = run.data(NAME)
-    if said := flow.beyond_doubt or flows_at_such(run.problem.scene, flow):
+    if said := flow.beyond_doubt or flow.at_such_stresses:
         return said
-    worst = flow.worst
-    where = f" at friction {plain(worst.friction)}" if len(flow.checks) > 1 else ""
-    where += ", by the peak pressure (no [stress])" * (worst.von_mises is None)
+    several = len(run.problem.scene.load.friction) > 1
+    where = f" at friction {plain(flow.worst.friction)}" if several else ""
+    where += ", by the peak pressure (no [stress])" * (flow.there("von_mises_max") is None)
     if flow.ratio is None:
-        shear = with_unit(worst.tau1, "Pa", 2)
+        shear = with_unit(flow.worst.value, "Pa", 2)
         return f"taken as elastic: it flows if its shear yield is below {shear}{where}"
     stress = with_unit(flow.yield_stress, "Pa", 3)
     third = "" if run.problem.scene.body.yield_stress else ", a third of the hardness"
     largest = f"the half-plane's largest shear is {significant(flow.ratio, 2)} times that of first "
     largest += f"flow{where} (Y = {stress}{third})"
     if flow.flow == "cap":
-        return f"flow is the cap alone, at {percent(worst.at_hardness)} of the contact; {largest}"
+        share = percent(flow.there("share_at_hardness"))
+        return f"flow is the cap alone, at {share} of the contact; {largest}"
     return f"{FLOW_IN_WORDS[flow.flow]}; {largest}"
 
 
@@ -323,7 +299,7 @@ def note(run: Run) -> str:
     """How to read the figures of flow."""
     scene, flow = run.problem.scene, run.data(NAME)
     said = "Stresses of the elastic half-plane" + CAPPED * bool(scene.body.hardness)
-    said += f"{BY_THE_PEAK * (flow.worst.von_mises is None)}."
+    said += f"{BY_THE_PEAK * (flow.there('von_mises_max') is None)}."
     if flow.yield_stress is None:
         return f"{said} The scene has neither yield stress nor hardness: what flows is not known."
     caps = (with_unit(cap * flow.yield_stress, "Pa", 2) for cap in (LEAST_CAP, TABOR))
@@ -334,11 +310,10 @@ def lines(run: Run) -> list[tuple[str, str]]:
     """That it flows where no model shows it; with a yield stress shakedown and, of a rough body,
     its plasticity, at the largest shear."""
     flow, names = run.data(NAME), tuple(QUANTITIES)[8:12]
-    flows = flows_at_such(run.problem.scene, flow)
     at = None, flow.worst.friction
     known = [f for f in run.findings[NAME].figures if f.quantity in names and f.friction in at]
     texts = (f"{QUANTITIES[f.quantity].label} {significant(f.value, 3)}" for f in known)
-    said = [("flow", flows), ("yield", ", ".join(texts))]
+    said = [("flow", flow.at_such_stresses), ("yield", ", ".join(texts))]
     return [line for line in said if line[1]]
 
 

@@ -54,7 +54,8 @@ def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> f
     scene = problem.scene
     held = set(carried_linear(scene, effects))
     yields = scene.body.yield_stress is not None and scene.body.hardness is None
-    if yields and not scene.periodic and flow.worst.peak > TABOR * scene.body.yield_stress:
+    over = flow.there("peak_pressure_over_shear_yield")
+    if yields and not scene.periodic and over > TABOR * 3.0**0.5:
         held.add(CAP)
     return frozenset(held)
 

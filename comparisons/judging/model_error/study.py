@@ -29,7 +29,7 @@ from comparisons.judging.model_error.show import TRUST
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import MODEL_ERROR as NAME
 from comparisons.judging.study import Solved, Study
-from comparisons.judging.yielding import flow_assessment, flows_at_such
+from comparisons.judging.yielding import flow_assessment
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 
@@ -52,7 +52,7 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
         return []
     selection = effects_of_run(solved, tasks)
     account = {name: selection.account(name) for name in EFFECTS}
-    flows = flows_at_such(solved.problem.scene, flow_assessment(solved))
+    flows = flow_assessment(solved).at_such_stresses
     lines = [f"flow: {flows}"] if flows else []
     for status in ("computed", "not computed"):
         names = [name for name, (what, _) in account.items() if what == status]
