@@ -10,7 +10,7 @@ from comparisons.common.numbers import plain, scale_of, significant, with_unit
 from comparisons.drawing import style
 from comparisons.drawing.curves import draw, legend_above, names_above, over, panels
 from comparisons.drawing.field import ColourScale, FieldPanel, draw_fields
-from comparisons.figures.quantity import LABELS, MODELS
+from comparisons.figures.quantity import MODELS, error_text
 from comparisons.judging.study import Run
 from comparisons.studies.heat.half_space import reach_of
 from comparisons.studies.heat.study import NAME, OTHER_PRESSURES
@@ -63,24 +63,21 @@ def heat_facts(run: Run) -> list[tuple[str, str]]:
         name = f"change of the largest rise without {study.contains.get(part.name)}"
         if part.name == OTHER_PRESSURES:
             name = "difference of both models by their pressures"
-        facts.append((name, replace(figure, value=part.value).sized(part.uncertainty)))
+        changed = replace(figure, value=part.value).sized(part.uncertainty)
+        unsure = error_text(part.value, figure.numerical)  # in what digits are certain
+        facts.append((name, unsure if part.uncertainty is None else changed))
     return facts
 
 
 def surfaces_picture(run: Run) -> style.Picture:
     """The surfaces' temperatures over the heat, and their stresses where these are known."""
     contacts, stresses = run.data(NAME).contacts, run.data(NAME).stresses
-    largest = "; ".join(
-        f"{LABELS[name]} {significant(contact.figures['flash_temperature'])} K"
-        for name, contact in contacts.items()
-    )
     caption = (
         "Rise of both surfaces above the bulk temperature, equal where they touch; wide and pale: "
-        f"the roller's. Largest: {largest}. Below, the heat of friction, wide and pale, and its "
-        "part that enters the body."
+        "the roller's. Below, the heat of friction, wide and pale, and its part that enters the "
+        "body."
     )
     caption += " Last, σx of the body's surface; wide and pale: without heat." * bool(stresses)
-    words = f"Rise of both surfaces' temperatures over x. Largest: {largest}."
     abreast, room = names_above(style.WIDE, 2 * len(contacts))
     rows = [(room, 2.2), (0.2, 0.98), (0.2, 1.5)][: 3 if stresses else 2]
     drawn, axes = panels(style.WIDE, rows)
@@ -101,7 +98,7 @@ def surfaces_picture(run: Run) -> style.Picture:
         panel.set_ylabel(name)
     over(axes, f"x [{unit.name}]", next(iter(contacts.values())).x / unit.factor)
     legend_above(axes[0], abreast)
-    return style.picture(drawn, words, caption)
+    return style.picture(drawn, caption, caption)
 
 
 def below_pictures(run: Run) -> list[style.Picture]:
