@@ -46,7 +46,7 @@ from comparisons.models.window import Window
 
 NAME = "quiescent_zone"
 _depth = partial(Quantity, unit="m", scale=attrgetter("half_width"), over=(1.0, "a"))
-QUANTITIES = {  # the figures of a ShearDip
+QUANTITIES = {  # of a dip, in the order of `shear_dip`
     "level": Quantity("least shear over the Hertz zone's"),
     "ratio": Quantity("least shear over the smaller maximum"),
     "depth": _depth("depth of the least shear"),
@@ -72,26 +72,10 @@ DEEPEST = 0.8  # a: as far down the Hertz zone's maximum may lie, and the fields
 SHORT = 0.02  # of what they must reach to, by which they may end before
 
 
-@dataclass(frozen=True)
-class ShearDip:
-    """Shear over depth between two maxima, on any scales of both."""
-
-    level: float  # as above
-    ratio: float
-    depth: float  # of the least shear
-    start: float  # of the zone; nan where there is none, as the stop
-    stop: float
-    asperity: float  # the maxima of both zones
-    asperity_depth: float
-    hertz: float
-    hertz_depth: float
-    status: str  # quiescent | bridged | no asperity zone
-
-
-def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
-    """The dip of `shear` (m,) over depths z (m,), ascending from the surface; the Hertz zone's
-    maximum is sought from `deep` on. Between the points runs a C2 cubic spline, searched at FINE
-    points an interval."""
+def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> dict[str, float]:
+    """The QUANTITIES of the dip of `shear` (m,) over depths z (m,), ascending from the surface, on
+    any scales of both; ends of no zone are nan. The Hertz zone's maximum is sought from `deep` on.
+    Between the points runs a C2 cubic spline, searched at FINE points an interval."""
     known = np.isfinite(shear)
     places = np.arange(np.count_nonzero(known), dtype=float)
     between = np.linspace(0.0, places[-1], FINE * (len(places) - 1) + 1)
@@ -107,14 +91,21 @@ def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> ShearDip:
     least = min(shear[top], hertz)
     level = shear[low] / hertz if hertz > 0.0 else 1.0
     ratio = shear[low] / least if least > 0.0 else 1.0
-    ends, status = (nan, nan), SMOOTH if level < QUIET else BRIDGED
+    ends = nan, nan
     if ratio < QUIET:
-        status, loud = QUIESCENT, np.flatnonzero(shear >= QUIET * least)
+        loud = np.flatnonzero(shear >= QUIET * least)
         above, below = loud[loud < low][-1], loud[loud > low][0]
         pairs = [above + 1, above], [below - 1, below]
         ends = tuple(np.interp(QUIET * least, shear[pair], z[pair]) for pair in pairs)
     numbers = (level, ratio, z[low], *ends, shear[top], z[top], hertz, z[-1])
-    return ShearDip(*map(float, numbers), status)
+    return dict(zip(QUANTITIES, map(float, numbers), strict=True))
+
+
+def state_of(dip: Mapping[str, float]) -> str:
+    """Whether there is a quiescent zone, and if not, why."""
+    if dip["ratio"] < QUIET:
+        return QUIESCENT
+    return SMOOTH if dip["level"] < QUIET else BRIDGED
 
 
 def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 1) -> np.ndarray:
@@ -129,8 +120,8 @@ def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 
         return np.sqrt(np.sum(np.nan_to_num(square) * inside, axis=1) / np.sum(inside, axis=1))
 
 
-def zone_of(problem: Problem, level: Level, window: Window, every: int = 1) -> ShearDip:
-    """Of one level, read on every n-th row and column of the window; Pa and m."""
+def zone_of(problem: Problem, level: Level, window: Window, every: int = 1) -> dict[str, float]:
+    """`shear_dip` of one level, read on every n-th row and column of the window; Pa and m."""
     tau1 = level.stress.field.tau1[::every]
     shear = mean_shear(problem, window, tau1, every)
     return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
@@ -151,34 +142,32 @@ def asperity_rows(problem: Problem, level: Level, window: Window) -> list[dict[s
         shear = np.max(tau1[:, columns], axis=1)
         dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
         place = float(lengths @ patches.mean(axis=1) / length)
-        rows.append({"x": place, "length": length, "level": dip.level, "state": dip.status})
+        known = {"level": dip["level"], "state": state_of(dip)}
+        rows.append({"x": place, "length": length} | known)
     return rows
 
 
 def zone_figures(case: Case, run: ModelRun, window: Window) -> tuple[tuple[Figure, ...], str]:
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
-
-    problem, unsolved = case.problem, iteration(run.finest.solution)
-    dip, coarse = (zone_of(problem, run.finest, window, every) for every in (1, 2))
+    coarse, unsolved = zone_of(case.problem, run.finest, window, 2), iteration(run.finest.solution)
 
     def read(level: Level) -> dict[str, float]:
-        dip = zone_of(problem, level, window)
-        return {name: getattr(dip, name) for name in QUANTITIES}
+        return zone_of(case.problem, level, window)
 
     def how(name: str, value: float) -> Reading:
         return Reading(ORDER, abs(value) or 1.0, iteration=unsolved * bool(value))
 
     figures = {}
     for name, figure in judged_by(NAME, [run], read, how, case.at).items():
-        stated, apart = figure.uncertainty, abs(getattr(coarse, name) - figure.value) / figure.scale
+        stated, apart = figure.uncertainty, abs(coarse[name] - figure.value) / figure.scale
         parts = {**stated.parts, "reading": apart}
         parts = {cause: size if isfinite(size) else inf for cause, size in parts.items()}
         if isfinite(figure.value):
             figures[name] = replace(figure, uncertainty=replace(stated, parts=parts))
-    ratio = figures["ratio"]
+    ratio, state = figures["ratio"], state_of({name: f.value for name, f in figures.items()})
     is_unclear = abs(ratio.value - QUIET) <= ratio.numerical * ratio.scale
-    return tuple(figures.values()), UNCLEAR if is_unclear else dip.status
+    return tuple(figures.values()), UNCLEAR if is_unclear else state
 
 
 def needs(solved: Solved) -> str | None:
