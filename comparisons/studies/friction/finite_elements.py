@@ -34,8 +34,8 @@ SETTLED = 1e-6
 
 def finite_element_slip(
     problem: Problem,
-    window: Window | None,
     level: Level,
+    window: Window | None,
     increments: int,
     half_block: bool = False,
 ) -> SlippedLevel:
@@ -55,9 +55,9 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
     model of either compliance."""
     model, unlike = operator_of(problem, grid), operator.unlike
 
-    def solve(apply: Callable, *problem_of_contact: object) -> object:
-        start, operator = problem_of_contact[-1], SimpleNamespace(apply=apply)
-        return solve_with_model(operator, model, *problem_of_contact, nearer=start is not None)
+    def solve(apply: Callable, *posed: object) -> object:
+        whole, start = SimpleNamespace(apply=apply), posed[-1]
+        return solve_with_model(whole, model, *posed, nearer=start is not None)
 
     def normal(pressure: np.ndarray) -> np.ndarray:
         return operator.moved(pressure=pressure)[0]

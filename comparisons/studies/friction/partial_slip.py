@@ -16,7 +16,7 @@ from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution
 from comparisons.judging.rule import Reading, judged_by
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import ModelRun
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import SlippedLevel, half_plane_slip
@@ -46,16 +46,18 @@ LENGTHS = "stick_length", "stick_ratio"  # read with the grid's resolution
 # which power of that stress figures go
 END_READ = 1.5e-3
 AT_AN_END = {"edge_tension": 1.0, "ruiz": 1.0, "smith_watson_topper": 2.0}
-Solve = Callable[[Level, int], SlippedLevel]  # of a level, by so many increments
+Solve = Callable[..., SlippedLevel]  # of a level, by so many increments
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
     """Every level of every model that was run is loaded along the path."""
     problem, case = solved.problem, solved.case(solved.problem.largest_friction)
+    slip = problem.scene.partial_slip
     models, figures, series, said = {}, [], [], []
-    for name, load in solvers(solved).items():
+    for name, solver in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
-        model = models[name] = _loaded(case.runs[name], load, problem.scene.partial_slip.increments)
+        load = partial(solver, problem, window=solved.window)
+        model = models[name] = _loaded(case.runs[name], load, slip.increments)
         settled = all(s.converged for level in model.levels for s in level.states)
         said.append(Statement(CONVERGED, "yes" if settled else "no", name, case.at))
         known = slip_figures(case, [model])
@@ -67,33 +69,30 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         figures += slip_figures(case, list(models.values())).values()
     outside = before.get(answers.NAME)
     if outside is not None and models:
-        tolerance = problem.scene.partial_slip.tolerance
-        figures += outside_figures(outside.data, model.levels, known["stick_length"], tolerance)
+        stuck = known["stick_length"]
+        figures += outside_figures(outside.data, model.levels, stuck, slip.tolerance)
     finest = {name: model.finest for name, model in models.items()}
     return Findings(tuple(figures), tuple(series), tuple(said), finest)
 
 
 def solvers(solved: Solved) -> dict[str, Solve]:
     """What loads a level of each model that was run, and can be."""
-    problem, window = solved.problem, solved.window
-    solvers: dict[str, Solve] = {}
-    if "half_plane" in solved.runs:
-        solvers["half_plane"] = lambda level, count: half_plane_slip(problem, level, window, count)
-    if "finite_element" in solved.runs and not problem.scene.finite_element.plastic:
+    solvers: dict[str, Solve] = {"half_plane": half_plane_slip}
+    if "finite_element" in solved.runs and not solved.problem.scene.finite_element.plastic:
         from comparisons.studies.friction.finite_elements import finite_element_slip
 
-        solvers["finite_element"] = partial(finite_element_slip, problem, window)
-    return solvers
+        solvers["finite_element"] = finite_element_slip
+    return {name: solvers[name] for name in solved.runs if name in solvers}
 
 
 def _loaded(run: ModelRun, load: Solve, count: int) -> ModelRun:
     """A model's levels under the path of loads, the coarsest also on a block of half the size and
     by half as many increments."""
-    levels, smaller, fewer = tuple(load(level, count) for level in run.levels), None, ()
+    levels, smaller, fewer = tuple(load(level, increments=count) for level in run.levels), None, ()
     if run.far_boundary_check is not None:
-        smaller = load(run.levels[0], count, half_block=True)
+        smaller = load(run.levels[0], increments=count, half_block=True)
     if levels[0].is_stepped:
-        fewer = (load(run.levels[0], count // 2),)
+        fewer = (load(run.levels[0], increments=count // 2),)
     return ModelRun(run.name, levels, smaller, fewer)
 
 

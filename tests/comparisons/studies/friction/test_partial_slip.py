@@ -146,7 +146,7 @@ def test_unlike_bodies_are_loaded_alike_by_both_models(roller):
     posed = problem(changed(scene, load={"friction": 0.3}))
     level = half_plane_at(posed)
     one = half_plane_slip(posed, level, None, 3)
-    other = finite_element_slip(posed, None, level, 3)
+    other = finite_element_slip(posed, level, None, 3)
     assert all(state.converged for state in (*one.states, *other.states))
     for name, value in one.figures.items():
         assert value == pytest.approx(other.figures[name], rel=0.02)
