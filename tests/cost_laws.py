@@ -45,14 +45,12 @@ def level_cost(name: str, number: int) -> LevelCost:
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.posing import problem_of
-    from comparisons.models.window import window_of
     from comparisons.scenes.scene import Scene
 
     problem = problem_of(Scene.read(name))
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
-    window = window_of(problem) if problem.scene.stress else None
     begin = processor_seconds()
-    level, *_ = finite_element_level(problem, refinement, window, Stages()).values()
+    level, *_ = finite_element_level(problem, refinement, Stages()).values()
     seconds = processor_seconds() - begin
     unknowns = expected_unknowns(problem, refinement, level.patches), level.unknowns
     memory = level.expected_memory / 1e6, peak_memory() / 1e6

@@ -194,22 +194,20 @@ def finite_elements(
     from comparisons.common.progress import Stages
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
-    from comparisons.models.window import window_of
 
-    window = window_of(posed) if fields else None
+    posed = posed if fields else replace(posed, window=None)
     asked = Refinement(pitch or posed.pitches[0], **refinement)
-    return next(iter(finite_element_level(posed, asked, window, Stages()).values()))
+    return next(iter(finite_element_level(posed, asked, Stages()).values()))
 
 
 def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = False) -> "Level":
     """The half-plane on one level, as `finite_elements` has theirs."""
     from comparisons.common.progress import Stages
     from comparisons.models.analytic import analytic_level
-    from comparisons.models.window import window_of
 
-    window = window_of(posed) if fields else None
+    posed = posed if fields else replace(posed, window=None)
     grid = posed.grid(pitch or posed.pitches[0])
-    levels = analytic_level(posed, posed.half_plane_effects, grid, window, Stages(), fields)
+    levels = analytic_level(posed, posed.half_plane_effects, grid, Stages(), fields)
     return next(iter(levels.values()))
 
 
@@ -224,7 +222,7 @@ def refound(run: "Run", study: str, **changes: object) -> "Run":
 
 
 def posed(run: "Run", **changes: object) -> "Run":
-    """A finished run of another problem, plan or window, with the same findings."""
+    """A finished run of another problem or plan, with the same findings."""
     return replace(run, solved=replace(run.solved, **changes))
 
 

@@ -27,7 +27,6 @@ from comparisons.models.level import Level
 from comparisons.models.plan import no_coupling
 from comparisons.models.posing import surface_ends
 from comparisons.models.problem import COUPLED, Problem
-from comparisons.models.window import Window
 
 NAME = "coupling"
 SHIFT = "contact_shift"
@@ -115,10 +114,10 @@ def figures_of_changes(
 def couplings(solved: Solved, callback: ProgressCallback) -> tuple[Coupling, ...]:
     """One for each friction coefficient, in the order of the scene, from the finished
     half-plane."""
-    return tuple(_coupling(case, solved.window, callback) for case in solved.cases)
+    return tuple(_coupling(case, callback) for case in solved.cases)
 
 
-def _coupling(case: Case, window: Window | None, callback: ProgressCallback) -> Coupling:
+def _coupling(case: Case, callback: ProgressCallback) -> Coupling:
     problem, friction, level = case.problem, case.friction, case.runs["half_plane"].finest
     if (why := no_coupling(problem, friction)) is not None:
         return Coupling(friction, {}, why=why)
@@ -129,7 +128,7 @@ def _coupling(case: Case, window: Window | None, callback: ProgressCallback) -> 
     more = int(np.ceil(0.5 * abs(friction * problem.dundurs_beta) * level.grid.count))
     while True:
         grid = _stretched(problem, level.grid, more)
-        [other] = analytic_level(problem, effects, grid, window, stages).values()
+        [other] = analytic_level(problem, effects, grid, stages).values()
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break

@@ -33,7 +33,7 @@ def applies(solved: Solved) -> bool:
     """Whether the scene's finite elements have layers and nothing else that no half-plane has."""
     scene = solved.problem.scene
     alike = contained(scene) <= LAYERS and scene.body.width is None and not scene.periodic
-    possible = why_no_stresses(solved.problem, solved.window) is None
+    possible = why_no_stresses(solved.problem) is None
     return bool(solved.plan.compares and is_layered(scene) and alike and possible)
 
 

@@ -20,7 +20,7 @@ from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window, window_of
+from comparisons.models.window import Window
 
 if TYPE_CHECKING:
     from comparisons.common.tasks import Opens, Tasks
@@ -57,7 +57,6 @@ class Solved:
 
     problem: Problem
     plan: Plan
-    window: Window | None  # points of the common field, None without [stress]
     cases: tuple[Case, ...]  # in the order of the scene's friction coefficients
     refinement: str = ""  # why it stopped
     # from outside, read before, each on its resolutions; None: the scene's files are read
@@ -70,6 +69,11 @@ class Solved:
         """The models of the first case, by name; empty before anything is solved. Their sizes and
         costs are those of all cases, which are solved together."""
         return self.cases[0].runs
+
+    @property
+    def window(self) -> Window | None:
+        """Points of the common field, None without [stress]."""
+        return self.problem.window
 
     def case(self, friction: float) -> Case:
         return next(case for case in self.cases if case.friction == friction)
@@ -87,7 +91,7 @@ def unsolved(problem: Problem, plan: Plan) -> Solved:
     """A scene of which nothing is solved yet."""
     frictions = problem.scene.load.friction
     cases = tuple(Case(problem.under(friction)) for friction in frictions)
-    return Solved(problem, plan, window_of(problem) if plan.stress else None, cases)
+    return Solved(problem, plan, cases)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +114,7 @@ class Run:
 
     @property
     def window(self) -> Window | None:
-        return self.solved.window
+        return self.problem.window
 
     @property
     def runs(self) -> Mapping[str, ModelRun]:

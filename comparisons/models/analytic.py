@@ -56,9 +56,9 @@ def expected_of(count: int) -> ExpectedCost:
     return ExpectedCost(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
 
 
-def expected_with(problem: Problem, pitch: float, window: Window | None) -> ExpectedCost:
-    """The same with stresses on a window."""
-    cost = expected_of(problem.grid(pitch).count)
+def expected_with(problem: Problem, pitch: float) -> ExpectedCost:
+    """What a level of a pitch [m] will take with its stresses."""
+    cost, window = expected_of(problem.grid(pitch).count), problem.window
     if window is None:
         return cost
     pressed, searched = np.ptp(problem.extent), search_window(problem, window)
@@ -93,12 +93,11 @@ def analytic_level(
     problem: Problem,
     effects: frozenset[str],
     grid: HatGrid,
-    window: Window | None,
     stages: Stages,
     fields: bool = False,
 ) -> dict[float, Level]:
-    """Solve one level at each of the scene's friction coefficients: contact, and in a window the
-    largest stresses.
+    """Solve one level at each of the scene's friction coefficients: contact, and with [stress]
+    the largest stresses.
 
     effects  that the model has beside the half-plane's assumptions
     fields   give all stresses on the window, too; of bodies without a layer"""
@@ -107,7 +106,7 @@ def analytic_level(
         problem = replace(problem, scene=problem.scene.unchecked(cap))
 
     def solve(problem: Problem) -> dict[float, Level]:
-        return _level(problem, effects, grid, window, stages, fields)
+        return _level(problem, effects, grid, stages, fields)
 
     return by_friction(problem, COUPLED in effects, solve)
 
@@ -116,7 +115,6 @@ def _level(
     problem: Problem,
     effects: frozenset[str],
     grid: HatGrid,
-    window: Window | None,
     stages: Stages,
     fields: bool,
 ) -> dict[float, Level]:
@@ -132,13 +130,13 @@ def _level(
             seconds=stages.seconds,
             unknowns=grid.count,
             unresolved_crest=unresolved_crest(problem, grid, solution, effects),
-            expected_seconds=expected_with(problem, grid.pitch, window).seconds,
+            expected_seconds=expected_with(problem, grid.pitch).seconds,
         )
-    if window is None:
+    if problem.window is None:
         level = replace(level, peak_memory=peak_memory())
         return dict.fromkeys(problem.scene.load.friction, level)
     with stages.stage("stresses", "half-plane: stresses"):
-        stresses = tuple(_stresses(problem, effects, level, window, fields))
+        stresses = tuple(_stresses(problem, effects, level, fields))
     memory = peak_memory()
     return {s.friction: replace(level, stress=s, peak_memory=memory) for s in stresses}
 
@@ -159,10 +157,10 @@ def _pressed(problem: Problem, effects: frozenset[str], grid: HatGrid) -> Contac
     return deformed.pressed(lambda gap, start: solve_on(operator, gap, *how, start), solution)
 
 
-def why_no_stresses(problem: Problem, window: Window | None) -> str | None:
+def why_no_stresses(problem: Problem) -> str | None:
     """Why there are no stresses of a layered body, or None."""
     body = layered_body(problem.scene)
-    if window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
+    if problem.window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
         return None
     return "the layer is too thin for the waves of its stresses"
 
@@ -197,13 +195,13 @@ class _Side:
 
 
 def _stresses(
-    problem: Problem, effects: frozenset[str], level: Level, window: Window, fields: bool
+    problem: Problem, effects: frozenset[str], level: Level, fields: bool
 ) -> Iterator[StressResult]:
     """Extremes off the grid, of both sides of an interface, and for `fields` all on the window."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
-    sides, frictions = _sides(problem, effects, level, window), problem.scene.load.friction
+    sides, frictions = _sides(problem, effects, level), problem.scene.load.friction
     searched = zip(*(side.fields(level, frictions) for side in sides), strict=True)
-    shown = field_on(level, window, sides[0].rest) if fields else None
+    shown = field_on(level, problem.window, sides[0].rest) if fields else None
     for friction, by_side in zip(frictions, searched, strict=True):
         largest = [
             stress_maxima(
@@ -228,10 +226,10 @@ def _stresses(
         yield StressResult(friction, extremes, maxima, field)
 
 
-def _sides(problem: Problem, effects: frozenset[str], level: Level, window: Window) -> list[_Side]:
+def _sides(problem: Problem, effects: frozenset[str], level: Level) -> list[_Side]:
     """The layer and what lies below it; the body itself where there is no layer."""
-    body, searched = layered_body(problem.scene, effects), search_window(problem, window)
-    rest = beside_hats(problem, level)
+    body, window = layered_body(problem.scene, effects), problem.window
+    searched, rest = search_window(problem, window), beside_hats(problem, level)
     if body is None:
         return [_Side(problem.scene.body.material, None, False, rest, searched)]
     reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])

@@ -12,7 +12,6 @@ from comparisons.models.level import ModelRun, flowing_contact
 from comparisons.models.model import scene_model
 from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window, window_of
 
 
 @dataclass(frozen=True)
@@ -56,14 +55,13 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     the contact of the nearest analytic operator, as far as flow may spread it, others as if contact
     were all over the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
-    window = window_of(problem) if plan.stress else None
     plastic = scene.finite_element.plastic
     patches = flowing_contact(problem) if plastic else None
     for number in range(1, problem.most_levels + 1):
         pitch = problem.pitch_of(number)
         elements = problem.grid(pitch).count
         models = (scene_model(name, problem) for name in plan.models)
-        costs = [model.cost(problem, number, window, patches) for model in models]
+        costs = [model.cost(problem, number, patches) for model in models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
         if levels and total > problem.time:
@@ -85,16 +83,13 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     )
 
 
-def with_one_more(
-    problem: Problem, window: Window | None, runs: Mapping[str, ModelRun]
-) -> tuple[float, float]:
+def with_one_more(problem: Problem, runs: Mapping[str, ModelRun]) -> tuple[float, float]:
     """Seconds of all levels that the models have and of one more of each, and memory [bytes] of the
     largest of these."""
     time = sum(level.expected_seconds for run in runs.values() for level in run.levels)
     memory = 0.0
     for name, run in runs.items():
-        how = len(run.levels) + 1, window, run.finest.patches
-        finer = scene_model(name, problem).cost(problem, *how)
+        finer = scene_model(name, problem).cost(problem, len(run.levels) + 1, run.finest.patches)
         time, memory = time + finer.seconds, max(memory, finer.memory)
     return time, memory
 
@@ -107,7 +102,7 @@ def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
     flowing = replace(flowing, scene=flowing.scene.unchecked(switches))
     model = scene_model("finite_element", flowing)
     levels = (model, 1), (model, 2), *((replace(model, times=times), 1) for times in LONGER)
-    seconds = sum(one.cost(flowing, number, patches=patches).seconds for one, number in levels)
+    seconds = sum(one.cost(flowing, number, patches).seconds for one, number in levels)
     return len(problem.scene.load.friction) * seconds
 
 
@@ -115,7 +110,7 @@ def time_with_flow(problem: Problem, patches: np.ndarray) -> float:
     """Of the levels asked for of both models, and of flow [s], in contact on `patches` (k, 2)
     [m]."""
     seconds_of_parts = (
-        scene_model(name, problem).cost(problem, number, patches=patches).seconds
+        scene_model(name, problem).cost(problem, number, patches).seconds
         for name in MODELS
         for number in range(1, len(problem.pitches) + 1)
     )

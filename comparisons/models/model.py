@@ -14,7 +14,6 @@ from comparisons.common.tasks import NEEDED, Here, Tasks
 from comparisons.models.analytic import analytic_level, expected_with
 from comparisons.models.level import ExpectedCost, Level
 from comparisons.models.problem import COUPLED, Problem
-from comparisons.models.window import Window
 
 if TYPE_CHECKING:
     from comparisons.models.finite_element.mesh import Refinement
@@ -33,18 +32,14 @@ class Model:
     label: str = ""  # of its stages
 
     def cost(
-        self,
-        problem: Problem,
-        number: int,
-        window: Window | None = None,
-        patches: np.ndarray | None = None,
+        self, problem: Problem, number: int, patches: np.ndarray | None = None
     ) -> ExpectedCost:
         """What a level will take by the laws of cost, before anything is meshed or solved: of
         finite elements in contact on `patches` (k, 2) [m], by default all over the stretch of
-        pressures, which it never exceeds; of an analytic model with the stresses on a window."""
+        pressures, which it never exceeds."""
         pitch = problem.pitch_of(number)
         if self.solver == "analytic":
-            cost, moved = expected_with(problem, pitch, window), COUPLED in self.effects
+            cost, moved = expected_with(problem, pitch), COUPLED in self.effects
         else:
             from comparisons.models.finite_element.cost import expected
 
@@ -54,22 +49,20 @@ class Model:
         contacts = len(problem.scene.load.friction) if moved else 1
         return replace(cost, seconds=contacts * cost.seconds)
 
-    def solve(
-        self, here: Here, problem: Problem, number: int, window: Window | None
-    ) -> dict[float, Level]:
-        """A level by friction coefficient, with stresses in a window. Imports what it needs alone;
-        raises ContactError, MeshError, FemError and SceneError."""
+    def solve(self, here: Here, problem: Problem, number: int) -> dict[float, Level]:
+        """A level by friction coefficient, with the stresses that the scene asks for. Imports what
+        it needs alone; raises ContactError, MeshError, FemError and SceneError."""
         words = ", ".join(filter(None, (self.label, *self._checks.values(), f"level {number}")))
         stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
         pitch = problem.pitch_of(number)
         if self.solver == "analytic":
-            how = problem.grid(pitch), window, stages, self.fields
-            return analytic_level(problem, self.effects, *how)
+            grid = problem.grid(pitch)
+            return analytic_level(problem, self.effects, grid, stages, self.fields)
         from comparisons.models.finite_element.bodies import BodyCache
         from comparisons.models.finite_element.level import finite_element_level
 
         # bodies of one pitch are held: those of other levels are dropped
-        how = self._refinement(pitch), window, stages, here.held("bodies", pitch, BodyCache)
+        how = self._refinement(pitch), stages, here.held("bodies", pitch, BodyCache)
         return finite_element_level(problem, *how, fields=self.fields)
 
     def announce(
@@ -77,7 +70,6 @@ class Model:
         tasks: Tasks,
         problem: Problem,
         number: int,
-        window: Window | None,
         patches: np.ndarray | None = None,
         urgency: int = NEEDED,
         short: float = 0.0,
@@ -85,11 +77,11 @@ class Model:
         """Make a level known to the tasks, which give it by the key that is returned. One that is
         expected to take less than `short` [s] is solved at once, in this process."""
         key = "-".join((self.name, *self._checks, str(number)))
-        cost = self.cost(problem, number, window, patches)
+        cost = self.cost(problem, number, patches)
         tasks.add(
             key,
             self.solve,
-            *(problem, number, window),
+            *(problem, number),
             seconds=cost.seconds,
             memory=cost.memory,
             urgency=urgency,

@@ -25,7 +25,6 @@ class Plan:
     """Steps of a run."""
 
     models: tuple[str, ...]  # of MODELS
-    stress: bool  # compute subsurface fields
     coupling: bool  # solve the half-plane with and without normal-tangential coupling
     effects: bool  # compute effects beside the scene's own where their estimates ask for it
     domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
@@ -49,7 +48,6 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     compares = half_plane and finite_elements
     plan = Plan(
         models,
-        stress=scene.stress is not None,
         coupling=half_plane and not all(uncoupled),
         effects=compares and bool(scene.budget.effects) and bool(scene.tolerances),
         domain_check=finite_elements and unbounded,
@@ -65,7 +63,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             if section.STEP is not None
         ),
         (
-            plan.stress and not any(scene.load.friction),
+            scene.stress is not None and not any(scene.load.friction),
             "stresses of the sliding traction",
             "there is no friction",
         ),

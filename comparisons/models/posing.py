@@ -15,8 +15,9 @@ from analytic.material import combined_modulus
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import SceneError
 from comparisons.models.operators import LAYERS, is_layered, operator_of, patches_of, pressed_on
-from comparisons.models.problem import Levels, Problem, least_of_flow
+from comparisons.models.problem import MARGIN, SMOOTH_MARGIN, Levels, Problem, least_of_flow
 from comparisons.models.running_in import run_in_surface
+from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
 
@@ -36,9 +37,6 @@ THINNEST, THICKEST = 1e-3, 1e6
 STIFFEST = 1e9  # times the body's modulus, of a coating; as soft at least: a gel on diamond is 1e-9
 LAST_LOAD_CHANGE = 1e-3  # relative change of the load that no longer moves the mesh
 MOST_ROUNDS = 12  # of loads for a prescribed approach
-# Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
-# elements beyond it, which are as wide as a smooth contact's are few.
-MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 
 def problem_of(
@@ -51,7 +49,7 @@ def problem_of(
     The surface, by default read as the scene says, is run in first, where the scene asks for it
     and it was not done yet. Raises SceneError where the contact would reach beyond the trace, the
     load exceeds what the surface can carry at its hardness, or the pressure elements are too coarse
-    or too many."""
+    or too many, or the window of [stress] shows nothing or leaves the body."""
     surface = run_in_surface(scene, surface or surface_of(scene))
     modulus = combined_modulus(scene.roller.material, scene.body.material)
     if scene.periodic:
@@ -62,7 +60,8 @@ def problem_of(
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
     _check_circle(problem)
-    return replace(problem, asperities=_asperities(problem))
+    problem = replace(problem, asperities=_asperities(problem))
+    return problem if scene.stress is None else replace(problem, window=window_of(problem))
 
 
 def settled(

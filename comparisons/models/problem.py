@@ -6,7 +6,7 @@ is posed on one period L, under a flat body: R is infinite, the smooth contact t
 a = L/2, p0 is the mean pressure, P = p0 L."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -28,7 +28,35 @@ LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded blo
 # Depth of an unbounded periodic body over its period: a wave of it is off by 1e-7 at half of that.
 PERIODS_DEEP = 3.0
 LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
+# Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
+# elements beyond it, which are as wide as a smooth contact's are few.
+MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 WIDTHS_DEEP = 3.0  # of a body of finite width: below that its sides have made all stresses even
+
+
+@dataclass(frozen=True)
+class Window:
+    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on. The spacing in x
+    is the pitch of every level's pressure elements times or over a power of two."""
+
+    x: np.ndarray
+    z: np.ndarray
+    ends: tuple[float, float]  # x [m] between which extremes are searched, however dense x is
+
+    def holds(self, x: np.ndarray) -> np.ndarray:
+        """Whether places x [m] lie where extremes are searched."""
+        return (x >= self.ends[0]) & (x <= self.ends[1])
+
+    def stride(self, pitch: float) -> int:
+        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
+        return 2 ** max(0, self._octaves(pitch))
+
+    def subdivisions(self, pitch: float) -> int:
+        """Parts into which x divides a pitch [m], 1 where x is coarser."""
+        return 2 ** max(0, -self._octaves(pitch))
+
+    def _octaves(self, pitch: float) -> int:
+        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
 
 
 @dataclass(frozen=True)
@@ -52,6 +80,8 @@ class Problem:
     pitches: tuple[float, ...]
     # (k,) [m] where one ends and the next begins: largest values are compared at the same asperity
     asperities: tuple[float, ...] = ()
+    # points of the common field, which largest stresses are searched about; None without [stress]
+    window: Window | None = field(default=None, compare=False)
     levels: Levels | None = None  # None: as the scene's resolution and budget have it
     flows: bool = False  # the extent is as wide as flow may make the contact
     least_block: float = 0.0  # [m] width and depth that an unbounded block has at least

@@ -1,13 +1,10 @@
 """The points of the stress fields: where models and levels are compared, and searched."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from analytic.stress.field import graded_depths
 from comparisons.common.errors import SceneError
-from comparisons.models.posing import MARGIN, SMOOTH_MARGIN
-from comparisons.models.problem import Problem
+from comparisons.models.problem import MARGIN, SMOOTH_MARGIN, Problem, Window
 from comparisons.scenes.fields import Extent
 
 HALF_RANGE = Extent(1.5, in_half_widths=True)  # of a field, to either side
@@ -15,31 +12,6 @@ FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
 MOST_COLUMNS = 2**18  # of the coarsest pitch across a window: where extremes are searched
 SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
-
-
-@dataclass(frozen=True)
-class Window:
-    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on. The spacing in x
-    is the pitch of every level's pressure elements times or over a power of two."""
-
-    x: np.ndarray
-    z: np.ndarray
-    ends: tuple[float, float]  # x [m] between which extremes are searched, however dense x is
-
-    def holds(self, x: np.ndarray) -> np.ndarray:
-        """Whether places x [m] lie where extremes are searched."""
-        return (x >= self.ends[0]) & (x <= self.ends[1])
-
-    def stride(self, pitch: float) -> int:
-        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
-        return 2 ** max(0, self._octaves(pitch))
-
-    def subdivisions(self, pitch: float) -> int:
-        """Parts into which x divides a pitch [m], 1 where x is coarser."""
-        return 2 ** max(0, -self._octaves(pitch))
-
-    def _octaves(self, pitch: float) -> int:
-        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
 
 
 def field_ends(problem: Problem) -> tuple[float, float]:

@@ -127,7 +127,7 @@ class _Levels:
             begin(self.solved(len(self.problem.pitches), ["half_plane"]))
 
     def cost(self, name: str, number: int) -> ExpectedCost:
-        return self.models[name].cost(self.problem, number, self.scene.window, self.patches)
+        return self.models[name].cost(self.problem, number, self.patches)
 
     def add(self, model: Model, number: int = 1) -> str:
         """The key of a level's task."""
@@ -137,7 +137,7 @@ class _Levels:
         urgency = FIRST if first else NEEDED
         if is_half_plane and number == 1:  # for which the others wait
             urgency = AT_ONCE
-        how = self.problem, number, self.scene.window, self.patches, urgency
+        how = self.problem, number, self.patches, urgency
         return model.announce(self.tasks, *how, self.short if is_half_plane else 0.0)
 
     def wait(self, number: int, models: Iterable[str]) -> None:
@@ -198,7 +198,7 @@ class _Levels:
         None. Time is that of the laws by which levels are planned: by a clock, a busy machine would
         stop at other figures."""
         budget = self.problem.scene.budget
-        time, memory = with_one_more(self.problem, self.scene.window, runs)
+        time, memory = with_one_more(self.problem, runs)
         if time > self.problem.time:
             return f"a finer level would exceed {budget.time:g} s (budget.time)"
         if memory > budget.memory:

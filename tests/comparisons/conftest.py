@@ -145,6 +145,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
             np.linspace(0.0, 1.0, rows) ** 2 * half_width,
             (-1.5 * half_width, 1.5 * half_width),
         )
+    problem = replace(problem, window=window)
     levels = {
         name: [levels_of(problem, name, pitch, window) for pitch in problem.pitches]
         for name in models
@@ -156,7 +157,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     for mu in problem.scene.load.friction:
         runs = {n: ModelRun(n, tuple(level[mu] for level in of)) for n, of in levels.items()}
         cases.append(Case(problem.under(mu), runs))
-    solved = Solved(problem, plan, window, tuple(cases), resolved_all)
+    solved = Solved(problem, plan, tuple(cases), resolved_all)
     sizes = dict.fromkeys(QUANTITIES, SAMPLING)
     with patch("comparisons.judging.effects.sampling.sampling_changes", lambda *_: sizes):
         findings = studied(STUDIES, solved, {}, Tasks())

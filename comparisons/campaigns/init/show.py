@@ -101,8 +101,8 @@ def first_lines(scene: Scene) -> tuple[str, str]:
     from comparisons.models.model import scene_model
     from comparisons.models.posing import problem_of
 
-    problem = problem_of(scene)
-    levels = scene_model("half_plane", problem).solve(Here(), problem, 1, None)
+    problem = problem_of(scene.unchecked({"stress": None}))
+    levels = scene_model("half_plane", problem).solve(Here(), problem, 1)
     friction, level = max(levels.items(), key=itemgetter(0))
     return early_lines(problem.under(friction), level)
 

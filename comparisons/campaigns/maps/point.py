@@ -19,7 +19,6 @@ from comparisons.models.model import Model, scene_model
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window, window_of
 from meshes.block import MeshError
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
@@ -40,8 +39,8 @@ def solve_point(point: Point) -> dict:
     both models' values, in the digits that do not depend on the machine."""
     problem = problem_of(point.scene)
     plan = make_plan(problem, MODELS)
-    window, friction = window_of(problem) if plan.stress else None, problem.largest_friction
-    for runs in _refined(problem, plan, window, friction):
+    friction = problem.largest_friction
+    for runs in _refined(problem, plan, friction):
         for run in runs.values():
             if not run.finest.converged:
                 return failed(f"{run.name}: the contact did not converge")
@@ -77,9 +76,7 @@ def _significant(value: float) -> float:
     return float(f"{value:.{FIGURES}g}")
 
 
-def _refined(
-    problem: Problem, plan: Plan, window: Window | None, friction: float
-) -> Iterator[Runs]:
+def _refined(problem: Problem, plan: Plan, friction: float) -> Iterator[Runs]:
     """Both models on the first levels, then with one more each time, while there may be."""
     half_plane: list[Level] = []
     finite_element: list[Level] = []
@@ -88,7 +85,7 @@ def _refined(
     here = Here()
 
     def solved(model: Model, number: int) -> Level:
-        return model.solve(here, problem, number, window)[friction]
+        return model.solve(here, problem, number)[friction]
 
     check = solved(replace(elements, half_block=True), 1) if plan.domain_check else None
     for number in range(1, problem.most_levels + 1):

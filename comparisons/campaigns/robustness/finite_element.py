@@ -36,7 +36,6 @@ from comparisons.models.model import scene_model
 from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
 from fem.body.elasticity import elastic_body
 from fem.body.support import Support
@@ -129,9 +128,8 @@ def problem_with(tables: Tables) -> Problem:
 def solved(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
     """The same on the coarsest level, or on one `refinement` levels finer."""
     problem = problem_with(tables)
-    window = None if problem.scene.stress is None else window_of(problem)
     model = scene_model("finite_element", problem, fields=True)
-    level, *_ = model.solve(Here(), problem, 1 + refinement, window).values()
+    level, *_ = model.solve(Here(), problem, 1 + refinement).values()
     return problem, level
 
 

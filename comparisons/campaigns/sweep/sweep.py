@@ -26,7 +26,6 @@ from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.posing import problem_of
-from comparisons.models.window import window_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.plausibility import warnings_about, warnings_about_result
 from comparisons.output.result_json import result_of
@@ -170,9 +169,7 @@ def why_not(point: Point) -> str | None:
     if scene is None or (scene.load.kind == "approach" and "finite_element" in point.asked):
         return point.why
     try:
-        problem, plan = posed(scene, surface_of(scene), point.asked)
-        if plan.stress:
-            window_of(problem)
+        posed(scene, surface_of(scene), point.asked)
     except (ContactError, InputError, MeshError) as error:
         return str(error)
     return None

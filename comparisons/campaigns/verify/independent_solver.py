@@ -35,7 +35,7 @@ def independent_figures(name: str) -> CaseFigures:
     scene = Scene.of(SCENES[name], Origin("verify", source=f"verify: {name}"))
     problem = problem_of(scene)
     refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
-    how = problem, refinement, None, Stages(), body_cache
+    how = problem, refinement, Stages(), body_cache
     level, *_ = finite_element_level(*how).values()
     grid = level.grid
     # the bodies that the level was solved on, by the patches that its mesh is refined at

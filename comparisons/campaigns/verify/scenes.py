@@ -40,7 +40,6 @@ from comparisons.models.model import scene_model
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
-from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
@@ -270,8 +269,7 @@ def smooth_half_plane(problem: Problem) -> dict[str, float]:
 
 def fine_half_plane(problem: Problem) -> dict[str, float]:
     """Figures of the half-plane on the FINE level."""
-    how = Here(), problem, FINE, window_of(problem)
-    [level] = scene_model("half_plane", problem).solve(*how).values()
+    [level] = scene_model("half_plane", problem).solve(Here(), problem, FINE).values()
     return values_of(level, problem)
 
 

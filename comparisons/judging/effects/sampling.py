@@ -54,8 +54,8 @@ def announce_sampling(solved: Solved, tasks: Tasks) -> list[str]:
     keys, own = [], scene_model("half_plane", problem)
     for first in (0, 1) if problem.scene.profile is not None else ():
         model = replace(own, name=f"sampling-{first}", label="sampling of the trace")
-        how = tasks, _thinned(problem, first), number, solved.window
-        keys.append(model.announce(*how, urgency=LAST))
+        thinned = _thinned(problem, first)
+        keys.append(model.announce(tasks, thinned, number, urgency=LAST))
     return keys
 
 

@@ -118,14 +118,14 @@ def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
     but for `crosscheck cost`."""
     if not solved.all_methods:
         return []
-    problem, window, left, asked = solved.problem, solved.window, solved.problem.time, []
+    problem, left, asked = solved.problem, solved.problem.time, []
     patches = flowing_contact(problem)
     for method in methods_of(problem):
         posed = replace(problem, scene=problem.scene.unchecked(method.fields))
         for number in method.numbers if method.kind in solved.plan.models else ():
-            left -= method.model.cost(posed, number, window, patches).seconds
+            left -= method.model.cost(posed, number, patches).seconds
             if left > 0.0:
-                how = tasks, posed, number, window, patches, LAST
+                how = tasks, posed, number, patches, LAST
                 asked.append((method, number, method.model.announce(*how)))
     return asked
 

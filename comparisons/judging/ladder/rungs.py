@@ -28,7 +28,6 @@ from comparisons.models.level import ModelRun
 from comparisons.models.model import Model
 from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.smooth import closed_form
-from comparisons.models.window import Window
 
 HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
 ANALYTIC = HERTZ, HALF_PLANE, OPERATORS, DEFORMED
@@ -100,7 +99,7 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
     flows, problem = bool(nothing_suffices(budget, flow)), solved.problem
     linear = () if flows else carried(problem, effects, flow)
     refuted = any(rung.verdict == "fails" for rung in made if rung.effects == linear)
-    if refuted or why_no_stresses(problem, solved.window) is not None:
+    if refuted or why_no_stresses(problem) is not None:
         linear = ()
     deformed = () if flows or FLOW in effects else carried_deformed(problem, effects)
     for name, held in ((OPERATORS, linear), (DEFORMED, deformed)):
@@ -125,7 +124,7 @@ def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
     rung, own = partial(_rung, budget, solved), budget.selection.contained
     if (smooth := closed_form(solved.problem)) is not None:
         began = perf_counter()
-        exact = [_closed_form(one.case, solved.window) for one in every]
+        exact = [_closed_form(one.case) for one in every]
         took = perf_counter() - began, 0.0
         errors = (e for one, of in zip(every, exact, strict=True) for e in one.of_exact(of))
         yield rung(HERTZ, none, f"{smooth.name}'s closed form", took, errors)
@@ -185,8 +184,8 @@ def announce_operators(
 ) -> list[str]:
     """The keys of the tasks that solve the half-plane with some of the effects."""
     model = Model(f"{OPERATORS}-{'+'.join(sorted(held))}", "analytic", held, label=words_of(held))
-    where = [(solved.problem, number, solved.window) for number in range(1, levels + 1)]
-    return [model.announce(tasks, *one, urgency=LAST) for one in where]
+    numbers = range(1, levels + 1)
+    return [model.announce(tasks, solved.problem, number, urgency=LAST) for number in numbers]
 
 
 def operator_runs(
@@ -205,11 +204,11 @@ def operator_runs(
     return {mu: ModelRun(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
 
 
-def _closed_form(case: Case, window: Window | None) -> dict[str, float]:
-    """The smooth contact's figures [SI]; largest stresses with a window."""
+def _closed_form(case: Case) -> dict[str, float]:
+    """The smooth contact's figures [SI]; largest stresses with [stress]."""
     smooth = closed_form(case.problem)
     values = {"peak_pressure": smooth.peak_pressure, "contact_length": smooth.contact_length}
-    if window is not None:
+    if case.problem.window is not None:
         largest = smooth.extremes(case.friction)
         values |= {"tau1_max": largest["tau1"].value, "tau1_max_depth": largest["tau1"].z}
         values["txz_max_abs"] = abs(largest["txz"].value)

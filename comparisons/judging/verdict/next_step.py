@@ -275,7 +275,7 @@ def _unknown_law(run: Run) -> str:
 def _finer_levels(run: Run) -> Iterator[Offer]:
     """The time and the memory of one more level of each model."""
     budget = run.problem.scene.budget
-    seconds, memory = with_one_more(run.problem, run.window, run.runs)
+    seconds, memory = with_one_more(run.problem, run.runs)
     wanted = {"memory": rounded_up(memory)} if memory > budget.memory else {}
     if seconds > budget.time or not wanted:
         wanted["time"] = max(2.0 * budget.time, rounded_up(seconds))

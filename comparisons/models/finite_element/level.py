@@ -36,7 +36,6 @@ from comparisons.models.level import Level, by_friction, flowing_contact, refuse
 from comparisons.models.operators import LAYERS, operator_of, solve_on
 from comparisons.models.posing import settled
 from comparisons.models.problem import COUPLED, Levels, Problem
-from comparisons.models.window import Window
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import SceneSurface, surface_of
 from fem.solver.compilation import load_dolfinx
@@ -50,7 +49,6 @@ MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 def finite_element_level(
     problem: Problem,
     refinement: Refinement,
-    window: Window | None,
     stages: Stages,
     body_cache: BodyCache | None = None,
     approach: float | None = None,
@@ -98,10 +96,10 @@ def finite_element_level(
             mesh=meshed.bodies.rough.mesh,
             material=pressed.material,
         )
-        if window is None:
+        if problem.window is None:
             return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
         with stages.stage("stresses", "finite elements: stresses"):
-            how = frictions, window, problem.asperities, fields
+            how = frictions, problem.window, problem.asperities, fields
             stresses, mesh_field = stresses_of(pressed, *how)
         level = replace(level, peak_memory=peak_memory(), mesh_field=mesh_field)
         return {stress.friction: replace(level, stress=stress) for stress in stresses}
@@ -240,8 +238,9 @@ def problem_of_approach(
 
     def pressed(problem: Problem) -> tuple[float, np.ndarray]:
         callback("finite elements: load of the prescribed approach")
-        how = Refinement(problem.pitches[-1]), None, Stages(), body_cache, approach
-        level, *_ = finite_element_level(problem, *how).values()
+        how = Refinement(problem.pitches[-1]), Stages(), body_cache, approach
+        bare = replace(problem, window=None)
+        level, *_ = finite_element_level(bare, *how).values()
         return level.solution.load, level.patches
 
     return settled(scene, surface or surface_of(scene), pressed, levels=levels)

@@ -33,7 +33,6 @@ from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.model import scene_model
 from comparisons.models.posing import load_on_layer, problem_of
 from comparisons.models.problem import Problem
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.scatter import CUT_OFF, FIELDS, Spread
 from comparisons.scenes.surface import SceneSurface
@@ -67,7 +66,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
         return
     problem = solved.problem
     x, by = problem.grid(problem.pitches[0]).x, _tasks(solved, tasks)
-    cost = scene_model("half_plane", problem).cost(problem, 1, solved.window)
+    cost = scene_model("half_plane", problem).cost(problem, 1)
     scale = None
     if problem.scene.load.kind == "approach":
         on_layer = load_on_layer(problem.scene, problem.surface)
@@ -194,11 +193,9 @@ def sampled(scene: Scene, surface: SceneSurface, point: np.ndarray) -> tuple[Sce
 def _nominal(problem: Problem) -> tuple[dict[float, dict[str, float]], np.ndarray]:
     """Figures of the half-plane on the coarsest level, by friction coefficient and quantity, and
     the pressure (n,) [Pa] at its nodes."""
-    scene = problem.scene
-    window = None if scene.stress is None else window_of(problem)
-    levels = scene_model("half_plane", problem).solve(Here(), problem, 1, window)
+    levels = scene_model("half_plane", problem).solve(Here(), problem, 1)
     figures = {friction: values_of(level, problem) for friction, level in levels.items()}
-    return figures, levels[scene.load.friction[0]].solution.pressure
+    return figures, levels[problem.scene.load.friction[0]].solution.pressure
 
 
 def _solve_batch(

@@ -108,7 +108,7 @@ class TestMethods:
         def peak(name: str) -> float:
             method = by_name[name]
             posed = replace(layer, scene=layer.scene.unchecked(method.fields))
-            return method.model.solve(Here(), posed, 2, None)[0.0].solution.pressure.max()
+            return method.model.solve(Here(), posed, 2)[0.0].solution.pressure.max()
 
         plain, operator = peak(PLANE), peak("half-plane, layered")
         elements = peak("finite elements, P3")

@@ -57,8 +57,8 @@ def half_plane_of(problem) -> ModelRun:
 
 def change_of(problem: Problem, levels: ModelRun) -> Coupling:
     """What coupling changes in a solved half-plane."""
-    case = Case(problem, {"half_plane": levels})
-    [change] = couplings(Solved(problem, None, None, (case,)), no_progress)
+    case = Case(replace(problem, window=None), {"half_plane": levels})
+    [change] = couplings(Solved(case.problem, None, (case,)), no_progress)
     return change
 
 

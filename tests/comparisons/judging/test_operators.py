@@ -20,7 +20,6 @@ from comparisons.models.level import ModelRun
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import COUPLED
 from comparisons.models.smooth import closed_form
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import Origin, Scene
 
 CASES = json.loads(TABLE.read_text())["cases"]
@@ -29,9 +28,8 @@ BODIES = {"roller": {"radius": 8e-3, **STEEL}, "body": dict(STEEL), "load": LOAD
 FIELD = {"stress": {"points": [60, 20]}}
 
 
-def analytic_at(posed, pitch, *effects, window=None):
-    how = posed.grid(pitch), window, Stages()
-    [level] = analytic_level(posed, frozenset(effects), *how).values()
+def analytic_at(posed, pitch, *effects):
+    [level] = analytic_level(posed, frozenset(effects), posed.grid(pitch), Stages()).values()
     return level
 
 
@@ -68,8 +66,8 @@ def test_a_coating_of_the_body_itself_is_a_half_plane():
     """Pressures, and the largest stresses on both sides of the interface."""
     coating = {"thickness": 30e-6, **STEEL}
     posed = problem(BODIES | FIELD | {"coating": coating})
-    window, pitch = window_of(posed), posed.pitches[0]
-    coated = analytic_at(posed, pitch, "coating", window=window)
+    pitch = posed.pitches[0]
+    coated = analytic_at(posed, pitch, "coating")
     plain = half_plane_at(posed, pitch, fields=True)
     assert coated.solution.pressure == pytest.approx(
         plain.solution.pressure, rel=1e-8, abs=1e-8 * plain.solution.pressure.max()
@@ -100,7 +98,7 @@ def test_what_an_operator_carries():
     body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
     posed = problem(BODIES | {"body": body})
     runs = {"half_plane": ModelRun("half_plane", (half_plane_at(posed),))}
-    flow = flow_assessment(Solved(posed, None, None, (Case(posed, runs),)))
+    flow = flow_assessment(Solved(posed, None, (Case(posed, runs),)))
     held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
     assert held == {"finite_size", COUPLED, CAP}
     assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"

@@ -40,9 +40,9 @@ def test_a_trace_that_is_nothing_beside_the_window_is_refused_before_it_is_searc
         "profile": {"file": "trace.csv", "x_unit": "pm", "z_unit": "nm"},
         "load": {"hertz_peak_pressure": 1e9},
     }
-    posed = problem_of(resolved(tables | {"stress": {}}, folder=tmp_path))
+    scene = resolved(tables | {"stress": {}}, folder=tmp_path)
     with pytest.raises(SceneError, match=r"stress.half_range: is 2.6e-07 m; .*: check x_unit and"):
-        window_of(posed)
+        problem_of(scene)
 
 
 @pytest.mark.parametrize("columns", [3, 10, 77, 600, 2500])
@@ -76,7 +76,7 @@ def test_the_search_is_as_dense_as_the_coarsest_pressures():
 )
 def test_windows_that_show_nothing_or_leave_the_body_are_refused(stress, words):
     with pytest.raises(SceneError, match=words):
-        window_of(problem(**stress))
+        problem(**stress)
 
 
 def test_a_shallow_window_of_many_rows():

@@ -124,5 +124,6 @@ def test_a_doubt_comes_before_anything_is_solved(folder, capsys):
 def test_a_field_that_does_not_hold_the_contact_is_doubted(smooth_outcome):
     window = replace(smooth_outcome.window, ends=(-0.9e-6, 0.9e-6))
     assert warnings_about_result(smooth_outcome) == []
-    [words] = warnings_about_result(posed(smooth_outcome, window=window))
+    problem = replace(smooth_outcome.problem, window=window)
+    [words] = warnings_about_result(posed(smooth_outcome, problem=problem))
     assert words.startswith("stress.half_range: there is contact beyond −900.0 nm to 900.0 nm")

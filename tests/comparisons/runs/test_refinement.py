@@ -1,6 +1,7 @@
 """How far refinement goes: by laws, not by the clock."""
 
 import time
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,7 +15,6 @@ from comparisons.judging.study import unsolved
 from comparisons.models.analytic import analytic_level, expected_with
 from comparisons.models.finite_element import level
 from comparisons.models.plan import make_plan
-from comparisons.models.window import window_of
 from comparisons.runs.refinement import refined
 from fem.solver.mumps import FemError
 
@@ -46,13 +46,14 @@ def test_stresses_far_beyond_a_small_contact_count_in_memory_and_time():
     """Heights in metres that are micrometres: the contact is a thousandth of the window."""
     rough = {"kind": "self-affine", "hurst": 0.8, "samples": 2048, "length": 6e-3, "seed": 1}
     made = problem(SMOOTH | {"profile": rough | {"rms_slope": 1000.0}, "stress": {"depth": 1.0}})
-    pitch, window = made.pitches[-1], window_of(made)
-    alone, cost = expected_with(made, pitch, None), expected_with(made, pitch, window)
+    posed = replace(made, window=None), made
+    alone, cost = (expected_with(one, made.pitches[-1]) for one in posed)
     assert cost.unknowns == alone.unknowns
     assert cost.seconds > 30.0 * alone.seconds and cost.memory > 30.0 * alone.memory
     # of a contact as wide as the window the same counts as ever
     made = problem(SMOOTH | {"stress": {"depth": 1.0}})
-    costs = (expected_with(made, made.pitches[-1], w) for w in (None, window_of(made)))
+    posed = replace(made, window=None), made
+    costs = (expected_with(one, made.pitches[-1]) for one in posed)
     assert len({cost.seconds for cost in costs}) == 1
 
 
@@ -72,11 +73,11 @@ def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
     """Finite elements that are half-planes, but for the finest one."""
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}})
 
-    def solve(finest, problem, refinement, window, stages, *rest, **others):
+    def solve(finest, problem, refinement, stages, *rest, **others):
         if refinement.pitch <= 1.01 * made.pitches[finest - 1]:
             raise FemError("it did not converge")
         grid = problem.grid(refinement.pitch)
-        return analytic_level(problem, frozenset(), grid, window, stages)
+        return analytic_level(problem, frozenset(), grid, stages)
 
     def solved(finest):
         monkeypatch.setattr(level, "finite_element_level", partial(solve, finest))

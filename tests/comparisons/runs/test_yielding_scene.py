@@ -203,7 +203,7 @@ def test_a_turned_metal_flows_below_an_elastic_roller():
     was expected to take is what a plan says of it."""
     posed = problem(TURNED)
     coarse = Refinement(posed.pitches[0], travel=4.0)
-    [level] = finite_element_level(posed, coarse, None, Stages()).values()
+    [level] = finite_element_level(posed, coarse, Stages()).values()
     solution = level.solution
     assert solution.converged and solution.residuals.worst < 1e-11
     cost = expected(posed, coarse, flowing_contact(posed))

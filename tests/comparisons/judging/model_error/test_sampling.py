@@ -39,7 +39,7 @@ def pressed(problem_with, tmp_path):
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
     case = Case(problem, {"half_plane": ModelRun("half_plane", tuple(levels))})
-    changes = sampling_changes(Solved(problem, None, None, (case,)), Tasks())
+    changes = sampling_changes(Solved(problem, None, (case,)), Tasks())
     return values_of(levels[-1], problem), changes
 
 

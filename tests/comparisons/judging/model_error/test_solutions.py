@@ -56,7 +56,7 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
         assert len(tasks._workers) == 2
     told = {stage.partition(", with ")[2] for stage in stages}  # of which variant and level
     assert len(told) == 3 and len(split.all) == 4
-    solved = {variant for variant, _, _ in shared.solved}
+    solved = {variant for variant, _ in shared.solved}
     assert solved == {*split.all} - {split.nothing}  # which is the scene's own
     assert shared.finest(split.whole, 0.0) is shared.wholes[split.whole][0.0]
     one, two = (

@@ -124,7 +124,7 @@ def stated(draw: random.Random, problem: Problem) -> Run:
     levels = (half_plane_at(problem),) * 2  # certain
     runs = {name: ModelRun(name, levels) for name in plan.models}
     cases = tuple(Case(problem.under(mu), runs) for mu in problem.scene.load.friction)
-    solved = Solved(problem, plan, None, cases)
+    solved = Solved(problem, plan, cases)
     findings = {contact.NAME: contact.solve(solved, {}, None)}
     if draw.random() < 0.05:
         findings[contact.NAME] = Findings(statements=(Statement(CONVERGED, "no"),))
