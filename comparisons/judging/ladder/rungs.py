@@ -131,19 +131,18 @@ def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
     took = _took(solved.runs[HALF_PLANE])
     yield rung(HALF_PLANE, none, "half-plane", took, budget.model_errors)
     for name in dict.fromkeys(name for one in every for name in one.effects):
-        levels = [level for one in every for level in one.split_levels if name in level.pairs]
-        if own != {name} and any(level.pairs[name][0] is not level.whole for level in levels):
+        split = [one.split for one in every if name in one.split.pairs]
+        if own != {name} and any(one.pairs[name][0] != one.whole for one in split):
             words = f"finite elements with {EFFECTS[name].label}"
             words = f"{ELEMENTS[name]} alone" if name in ELEMENTS else words
             errors = (e for one in every for e in one.of_levels(_with(name, one)))
-            took = _took_by(
-                budget, (one.split.pairs[name][0] for one in every if name in one.split.pairs)
-            )
+            took = _took_by(budget, (one.pairs[name][0] for one in split))
             yield rung(name, frozenset({name}), words, took, errors)
     took = _took(solved.runs[OTHER])
-    lacking = (h.not_contained.figures.values() for one in every for h in one.history[-1:])
+    lacking = (one.missing[-1].figures.values() for one in every)
     if own and any(np.any(change) for figures in lacking for change in figures):
-        errors = (e for one in every for e in one.of_levels([h.of_scene for h in one.history]))
+        levels = [[level[one.split.of_scene] for level in one.history] for one in every]
+        errors = (e for one, of in zip(every, levels, strict=True) for e in one.of_levels(of))
         yield rung(OTHER, own, _words_of_elements(own), took, errors)
     more, most = _took_by(budget, (variant for one in every for variant in one.split.wholes))
     words = f"whole model: {_words_of_elements(selection.whole)}"
@@ -153,7 +152,9 @@ def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
 
 def _with(name: str, one: Solutions) -> list[QuantitiesOfInterest]:
     """Finite elements with one effect, or where it does nothing, without any."""
-    return [level.pairs.get(name, (level.nothing,))[0] for level in one.split_levels]
+    variant, *_ = one.split.pairs.get(name, (one.split.nothing,))
+    levels = one.history[: one.levels_split]
+    return [level.get(variant, level[one.split.nothing]) for level in levels]
 
 
 def _beside(one: Solutions, runs: dict[float, ModelRun]) -> Iterator[Figure]:

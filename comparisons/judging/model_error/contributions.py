@@ -9,13 +9,12 @@ c normal-tangential coupling, 0 none:
     finite deformation of a body that flows    F(W) - F(W - k)
     interaction            F(W) - F(0) - the sum of these
 
-These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
-F(W) - F(scene)."""
+These add up to the whole, F(W) - F(0), in any order: an effect without a solution by itself counts
+in the interaction. The scene's own finite elements do not contain F(W) - F(scene)."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import reduce
-from operator import sub
 
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, NONLINEAR
 from comparisons.judging.effects.selection import EffectSelection
@@ -73,32 +72,6 @@ class SplitVariants:
         return (*self.laws.values(), *self.increments, *self.held_nearer.values())
 
 
-@dataclass(frozen=True)
-class EffectContributions:
-    """At one friction coefficient, on one level."""
-
-    whole: QuantitiesOfInterest  # the finite elements with all effects
-    of_scene: QuantitiesOfInterest  # the scene's own
-    # without any effect; None where nothing is split on this level
-    nothing: QuantitiesOfInterest | None
-    # by effect, the solutions with and without it, as far as there are any
-    pairs: dict[str, tuple[QuantitiesOfInterest, QuantitiesOfInterest]]
-    unsplit: str | None = None  # why there can be no split, else None
-
-    @property
-    def not_contained(self) -> QuantitiesOfInterest:
-        """What the scene's own finite elements lack of the whole."""
-        return self.whole - self.of_scene
-
-    def effect(self, name: str) -> QuantitiesOfInterest:
-        """What an effect changes by itself."""
-        return sub(*self.pairs[name])
-
-    def interaction(self, names: Iterable[str]) -> QuantitiesOfInterest:
-        """What the effects change jointly beyond the sum of the named ones."""
-        return reduce(sub, map(self.effect, names), self.whole - self.nothing)
-
-
 def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
     """The variants at a friction coefficient, the same on every level."""
     chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
@@ -131,27 +104,17 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
     return SplitVariants(whole, of_scene, variant(nothing), pairs, laws, increments)
 
 
-def contributions_of(
+def solutions_of(
     solved: Callable[[ModelVariant | None], QuantitiesOfInterest],
     split: SplitVariants,
     whole_alone: bool = False,
-) -> EffectContributions:
-    """All contributions on a level, or of the `whole_alone`; an effect without a solution by itself
-    counts in the interaction.
+) -> dict[ModelVariant | None, QuantitiesOfInterest]:
+    """By variant, those that have a solution on a level, or the whole and the scene's own.
 
     solved  the solution of a variant there, of the scene's own finite elements for None; raises
             NotComputedError where there is none, which is passed on of the whole"""
-    whole, of_scene = solved(split.whole), solved(split.of_scene)
-    if whole_alone:
-        return EffectContributions(whole, of_scene, None, {})
-    try:
-        nothing = solved(split.nothing)
-    except NotComputedError as error:
-        return EffectContributions(whole, of_scene, None, {}, str(error))
-    pairs = {}
-    for name, (with_it, without) in split.pairs.items():
-        try:
-            pairs[name] = solved(with_it), solved(without)
-        except NotComputedError:
-            continue
-    return EffectContributions(whole, of_scene, nothing, pairs)
+    found = {variant: solved(variant) for variant in (split.whole, split.of_scene)}
+    for variant in () if whole_alone else split.all:
+        with suppress(NotComputedError):
+            found[variant] = solved(variant)
+    return found

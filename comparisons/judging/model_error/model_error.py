@@ -9,7 +9,8 @@ value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import sub
 
 import numpy as np
 
@@ -26,7 +27,8 @@ from comparisons.figures.uncertainty import (
 from comparisons.judging.effects.catalogue import EFFECTS, LAW
 from comparisons.judging.effects.laws import LawSolutions, LawSpread
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import EffectContributions, SplitVariants
+from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.model_error.contributions import SplitVariants
 from comparisons.judging.model_error.quantities_of_interest import (
     LARGEST,
     QuantitiesOfInterest,
@@ -53,9 +55,12 @@ class Solutions:
     """What was solved of one case, and the model errors that follow."""
 
     case: Case
-    # the effects on the first levels, coarse to fine; perhaps of the whole alone on the last; none
-    # where the whole has no solution
-    history: tuple[EffectContributions, ...] = ()
+    split: SplitVariants  # what is solved
+    # by variant, the solutions on each level, coarse to fine, with None for the scene's own finite
+    # elements: of the wholes alone on the levels beyond `levels_split`
+    history: tuple[Mapping[ModelVariant | None, QuantitiesOfInterest], ...] = ()
+    levels_split: int = 0  # on which the effects are solved one by one
+    unsplit: str | None = None  # why there is no such level
     laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
     # the whole, at small strains, on the coarsest level by longer increments of flow, the longest
     # first, and by its own; empty: they have no solution; None: it does not flow, or the scene's
@@ -64,19 +69,35 @@ class Solutions:
     # by effect of size, what lacks it on the coarsest level with its far boundary at half the
     # distance, where it has a solution
     nearer: dict[str, QuantitiesOfInterest] = field(default_factory=dict)
-    split: SplitVariants | None = None  # what was solved
 
     @cached_property
-    def split_levels(self) -> list[EffectContributions]:
-        """Those on which the effects are solved one by one; none where one cannot be split."""
-        split = [level for level in self.history if level.nothing is not None]
-        return [] if any(level.unsplit for level in self.history) else split
+    def effects(self) -> dict[str, list[QuantitiesOfInterest]]:
+        """By effect that every split level has, what it changes by itself, by level."""
+        pairs = self.split.pairs.items()
+        levels = self.history[: self.levels_split]
+        return {
+            name: [level[with_it] - level[without] for level in levels]
+            for name, (with_it, without) in pairs
+            if levels and all(with_it in level and without in level for level in levels)
+        }
 
     @cached_property
-    def effects(self) -> list[str]:
-        """Names of the effects that every split level has."""
-        last = self.split_levels[-1].pairs if self.split_levels else {}
-        return [name for name in last if all(name in level.pairs for level in self.split_levels)]
+    def interaction(self) -> list[QuantitiesOfInterest]:
+        """What the effects change jointly beyond the sum of these, by split level."""
+        levels = self.history[: self.levels_split]
+        joint = [level[self.split.whole] - level[self.split.nothing] for level in levels]
+        return [reduce(sub, changes) for changes in zip(joint, *self.effects.values(), strict=True)]
+
+    @cached_property
+    def wholes(self) -> list[QuantitiesOfInterest]:
+        """With every effect, on the levels of the effects."""
+        return [level[self.split.whole] for level in self.history]
+
+    @cached_property
+    def missing(self) -> list[QuantitiesOfInterest]:
+        """What the scene's own finite elements lack of the wholes."""
+        pairs = zip(self.wholes, self.history, strict=True)
+        return [whole - level[self.split.of_scene] for whole, level in pairs]
 
     @cached_property
     def half_plane(self) -> QuantitiesOfInterest:
@@ -93,10 +114,9 @@ class Solutions:
     def whole(self) -> QuantitiesOfInterest:
         """The finest one: the scene's own finite elements there, and what they lack. A whole that
         flows beside them stands for itself: what flow takes depends on the level as they do."""
-        last, finest = self.history[-1], self.of_scene[-1].figures
         if self.longer is not None:
-            return last.whole
-        lacking = last.not_contained.figures.items()
+            return self.wholes[-1]
+        lacking, finest = self.missing[-1].figures.items(), self.of_scene[-1].figures
         return QuantitiesOfInterest({name: finest[name] + value for name, value in lacking})
 
     @cached_property
@@ -112,7 +132,7 @@ class Solutions:
         level = self.case.runs["finite_element"].levels[len(self.history) - 1]
         return {
             "contact_length": relative_resolution(level, level),
-            "peak_pressure": self.history[-1].whole.peak_resolution,
+            "peak_pressure": self.wholes[-1].peak_resolution,
         }
 
     def error(self, row: Figure) -> Figure:
@@ -133,15 +153,15 @@ class Solutions:
             numerical += self._of_competitors(name, numerical, at) / scale
         error = self._figure(name, (half_plane - figure) / scale, numerical, self._lacking(name))
         parts = [self._effect(name, effect, at, row.numerical) for effect in self.effects]
-        joint = [level.interaction(self.effects).figures[name][at] for level in self.split_levels]
+        joint = [level.figures[name][at] for level in self.interaction]
         parts.append(Part(INTERACTION, self._estimate(name, joint, at)[0]))
         jump, moved = self._jump(name, row.numerical, at)
         return replace(error, parts=(*parts, Part(JUMP, jump), *error.parts), place=moved)
 
     def of_levels(self, levels: Sequence[QuantitiesOfInterest]) -> Iterator[Figure]:
         """Errors of finite elements with other effects, on the last level of these."""
-        pairs = zip(levels, self.history, strict=False)
-        sizes = [(one.largest(), level.whole.largest()) for one, level in pairs]
+        pairs = zip(levels, self.wholes, strict=False)
+        sizes = [(one.largest(), whole.largest()) for one, whole in pairs]
         for name in self.whole.figures:
             at = self.whole.leading(name)
             middle = 1.0 + self._spread(name, at).middle
@@ -221,24 +241,22 @@ class Solutions:
         return values[-1], refined.uncertainty + self.unsolved
 
     def _effect(self, name: str, effect: str, at: int, numerical: float) -> Part:
-        changes = [level.effect(effect).figures[name][at] for level in self.split_levels]
-        (size, unsure), pair = (
-            self._estimate(name, changes, at),
-            self.split_levels[-1].pairs[effect],
-        )
+        changes, last = self.effects[effect], self.history[self.levels_split - 1]
+        size, unsure = self._estimate(name, [change.figures[name][at] for change in changes], at)
+        with_it, without = self.split.pairs[effect]
         if EFFECTS[effect].beyond:
             # of the far boundary of the solution without it; unknown where none is nearer
             domain = np.inf
             if effect in self.nearer:
-                ends = self.nearer[effect], self.split_levels[0].pairs[effect][1]
+                ends = self.nearer[effect], self.history[0][without]
                 domain = far_boundary(*(solution.figures[name][at] for solution in ends))
                 domain /= self._size(name, at)[1]
             unsure += domain
-        with_it, without = (solution.figures.get(LARGEST.get(name)) for solution in pair)
-        if with_it is None:
+        if name not in LARGEST:
             return Part(effect, size, unsure)
-        certain = with_it.max() / (1.0 + max(unsure, numerical))  # which may be infinite
-        return Part(effect, size, unsure, bool(certain > with_it[np.argmax(without)]))
+        moved, before = (last[one].figures[LARGEST[name]] for one in (with_it, without))
+        certain = moved.max() / (1.0 + max(unsure, numerical))  # which may be infinite
+        return Part(effect, size, unsure, bool(certain > moved[np.argmax(before)]))
 
     def _lacking(self, name: str) -> float:
         """Uncertainty of what the whole has beside the scene's own finite elements, relative."""
@@ -247,7 +265,7 @@ class Solutions:
 
     def _missing(self, name: str, at: int) -> float:
         """The part by levels; of a whole that flows beside them, and stands for itself, by its."""
-        beside = [h.not_contained if self.longer is None else h.whole for h in self.history]
+        beside = self.missing if self.longer is None else self.wholes
         return self._estimate(name, [level.figures[name][at] for level in beside], at)[1]
 
     def _increments(self, name: str, at: int) -> float:
@@ -290,5 +308,5 @@ class Solutions:
         jump = float((figures[name][before] - figures[name][at]) / self._size(name, at)[1])
         if not figures[largest][before] / figures[largest][at] - 1.0 > numerical:
             return jump, None
-        whole = self.history[-1].whole.places[largest][at]
+        whole = self.wholes[-1].places[largest][at]
         return jump, (float(self.half_plane.places[largest][before]), float(whole))

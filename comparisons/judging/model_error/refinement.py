@@ -15,7 +15,7 @@ from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    contributions_of,
+    solutions_of,
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions, figure_of
@@ -72,7 +72,7 @@ class EffectRefinement:
         for case in variants.scene.cases:
             split = split_variants(self.problem, selection, case.friction)
             longer = [] if split.increments else None
-            self.solutions.append(Solutions(case, longer=longer, split=split))
+            self.solutions.append(Solutions(case, split, longer=longer))
         self.splits = [one.split for one in self.solutions]
         variants.keep(split.whole for split in self.splits)
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
@@ -105,12 +105,11 @@ class EffectRefinement:
             replace(one, nearer=self._coarsest(one, one.split.held_nearer))
             for one in self.solutions
         ]
-        parts = (level.unsplit for one in self.solutions for level in one.history)
         finest = self.variants.finest
         return ErrorBudget(
             selection=self.selection,
             levels=levels,
-            unsplit=next(filter(None, parts), None),
+            unsplit=next((one.unsplit for one in self.solutions if one.unsplit), None),
             model_errors=tuple(self._errors()),
             wholes=tuple(finest(one.split.whole, one.case.friction) for one in self.solutions),
             left_out=left_out,
@@ -119,7 +118,7 @@ class EffectRefinement:
 
     def _take_wholes(self, most: int, is_frugal: bool) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
-        for number in range(1, min(most, LEAST_LEVELS) + 1):
+        for number in range(len(self.solutions[0].history) + 1, min(most, LEAST_LEVELS) + 1):
             self._take(number, alone=True)
         if most >= LEAST_LEVELS:
             self._take_laws()
@@ -146,9 +145,13 @@ class EffectRefinement:
         taken = []
         for one in self.solutions:
             solved = partial(self.variants.solution, number=number, friction=one.case.friction)
-            parts = contributions_of(solved, one.split, alone)
-            history = (*one.history[: number - 1], parts, *one.history[number:])
-            taken.append(replace(one, history=history))
+            found, nothing = solutions_of(solved, one.split, alone), one.split.nothing
+            one = replace(one, history=(*one.history[: number - 1], found, *one.history[number:]))
+            if not alone:
+                why = None if nothing in found else str(self.variants.failed[nothing, number])
+                why = one.unsplit or why
+                one = replace(one, unsplit=why, levels_split=0 if why else number)
+            taken.append(one)
         self.solutions = taken  # all of them, or none
 
     def _take_laws(self) -> None:
@@ -161,7 +164,7 @@ class EffectRefinement:
                 return
         known, laws = zip(self.solutions, moved, strict=True), (self.problem, self.selection.laws)
         self.solutions = [
-            replace(one, laws=LawSolutions(*laws, one.history[0].whole, of) if of else None)
+            replace(one, laws=LawSolutions(*laws, one.wholes[0], of) if of else None)
             for one, of in known
         ]
 

@@ -12,13 +12,14 @@ from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.effects.variants import problem_with as body_problem
 from comparisons.judging.model_error.contributions import (
-    EffectContributions,
     NotComputedError,
-    contributions_of,
+    solutions_of,
     split_variants,
 )
+from comparisons.judging.model_error.model_error import Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.rule import relative_differences
+from comparisons.judging.study import Case
 
 COUPLED = "normal_tangential_coupling"
 SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")
@@ -34,15 +35,16 @@ def is_nothing(difference: QuantitiesOfInterest) -> bool:
     return all(np.allclose(values, 0.0) for values in difference.figures.values())
 
 
-def what_is_left(parts: EffectContributions) -> QuantitiesOfInterest:
+def what_is_left(parts: Solutions) -> QuantitiesOfInterest:
     """Of what the scene's own finite elements lack, without the effects and their interaction."""
-    effects = map(parts.effect, parts.pairs)
-    return reduce(sub, effects, parts.not_contained - parts.interaction(parts.pairs))
+    effects = (change for [change] in parts.effects.values())
+    return reduce(sub, effects, parts.missing[0] - parts.interaction[0])
 
 
 def split_by(problem, solutions, friction=0.0, contained=(), added=()):
+    """The variants, and what was solved on one level."""
     split = split_variants(problem, selection_of(contained, added), friction)
-    return split, contributions_of(solutions, split)
+    return split, Solutions(Case(problem), split, (solutions_of(solutions, split),), 1)
 
 
 @pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
@@ -52,14 +54,14 @@ def test_effects_and_interaction_add_up_to_the_whole(problem_with, made_solution
     for names in itertools.combinations(SINGLE, count):
         _, parts = split_by(problem, made_solutions(PLAIN), friction, added=names)
         assert is_nothing(what_is_left(parts))  # the scene's own has none of them
-        assert set(parts.pairs) == set(names) - ({COUPLED} if friction == 0.0 else set())
+        assert set(parts.effects) == set(names) - ({COUPLED} if friction == 0.0 else set())
 
 
 @pytest.mark.parametrize("name", ["exact_circle", "finite_strain"])
 def test_one_effect_does_not_interact(problem_with, made_solutions, name):
     split, parts = split_by(problem_with(), made_solutions(PLAIN), added={name})
-    assert is_nothing(parts.interaction([name]))
-    assert is_nothing(parts.effect(name) - parts.not_contained)
+    assert is_nothing(parts.interaction[0])
+    assert is_nothing(parts.effects[name][0] - parts.missing[0])
     assert len(split.all) == 2
 
 
@@ -67,9 +69,9 @@ def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solution
     problem = problem_with(finite_element={"roller_shape": "circle"})
     contained = ModelVariant(frozenset({"exact_circle"}))
     _, parts = split_by(problem, made_solutions(contained), contained={"exact_circle"})
-    assert set(parts.pairs) == {"exact_circle"}
-    assert not is_nothing(parts.effect("exact_circle"))
-    assert is_nothing(parts.not_contained)
+    assert set(parts.effects) == {"exact_circle"}
+    assert not is_nothing(parts.effects["exact_circle"][0])
+    assert is_nothing(parts.missing[0])
 
 
 def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
@@ -88,7 +90,7 @@ class TestFiniteDeformation:
         problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
         solutions = made_solutions(PLAIN)
         split, parts = split_by(problem, solutions, 0.2, added={"finite_strain"})
-        assert set(parts.pairs) == {"finite_strain"}
+        assert set(parts.effects) == {"finite_strain"}
         assert split.whole == ModelVariant(frozenset({"finite_strain", COUPLED}), 0.2)
         assert set(solutions.asked) == {split.whole, PLAIN}
         strained = body_problem(problem, split.whole)
@@ -103,7 +105,7 @@ class TestFiniteDeformation:
         coupled = ModelVariant(frozenset({COUPLED}), 0.2)
         assert split.pairs[COUPLED] == (coupled, PLAIN)
         assert split.pairs["finite_strain"] == (split.whole, coupled)
-        assert is_nothing(parts.interaction(parts.pairs))
+        assert is_nothing(parts.interaction[0])
 
     def test_all_bodies_are_solved_as_it_is(self, problem_with):
         problem = problem_with(finite_element={"element": "P3"})
@@ -121,21 +123,20 @@ class TestWithoutSolution:
     def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with, made_solutions):
         alone = frozenset({ModelVariant(frozenset({"exact_circle"}))})
         _, parts = split_by(problem_with(), made_solutions(PLAIN, alone), added=self.ADDED)
-        assert set(parts.pairs) == {"finite_roller", "finite_strain"} and parts.unsplit is None
+        assert set(parts.effects) == {"finite_roller", "finite_strain"}
         assert is_nothing(what_is_left(parts))
 
     def test_of_none_the_whole_stays(self, problem_with, made_solutions):
         circle = ModelVariant(frozenset({"exact_circle"}))
-        _, parts = split_by(
-            problem_with(), made_solutions(circle, frozenset({PLAIN})), added=self.ADDED
-        )
-        assert parts.pairs == {} and parts.unsplit == "no mesh"
-        assert not is_nothing(parts.not_contained)
+        solutions = made_solutions(circle, frozenset({PLAIN}))
+        split, parts = split_by(problem_with(), solutions, added=self.ADDED)
+        assert parts.effects == {} and split.nothing not in parts.history[0]
+        assert not is_nothing(parts.missing[0])
 
     def test_of_the_whole_nothing_is_known(self, problem_with, made_solutions):
         split = split_variants(problem_with(), selection_of(added=self.ADDED), 0.0)
         with pytest.raises(NotComputedError):
-            contributions_of(made_solutions(PLAIN, frozenset({split.whole})), split)
+            solutions_of(made_solutions(PLAIN, frozenset({split.whole})), split)
 
 
 class TestLargestValues:

@@ -12,7 +12,7 @@ import pytest
 
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.model_error.contributions import EffectContributions
+from comparisons.judging.model_error.contributions import SplitVariants
 from comparisons.judging.model_error.model_error import Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.study import Case
@@ -38,8 +38,9 @@ def errors(
         )
         for name, of in (("half_plane", half_plane), ("finite_element", plain))
     }
-    pairs = {name: (with_it, plain) for name, with_it in effects.items()}
-    history = [EffectContributions(whole, plain, plain, pairs)] * 3
+    pairs = {name: (name, "plain") for name in effects}
+    split = SplitVariants("whole", None, "plain", pairs, {}, ())
+    history = [{"whole": whole, None: plain, "plain": plain, **effects}] * 3
     rows = []
     for name in ("tau1_max", "tau1_max_depth"):
         one, other = (of.largest()[name] for of in (half_plane, plain))
@@ -56,7 +57,7 @@ def errors(
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):
-        solutions = Solutions(Case(problem, runs), tuple(history))
+        solutions = Solutions(Case(problem, runs), split, tuple(history), 3)
         if read is not None:
             return {error.quantity: error for error in read(solutions)}
         return {row.quantity: solutions.error(row) for row in rows}

@@ -15,7 +15,7 @@ from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    contributions_of,
+    solutions_of,
     split_variants,
 )
 from comparisons.judging.model_error.solutions import SolvedVariants
@@ -60,11 +60,13 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     assert solved == {*split.all} - {split.nothing}  # which is the scene's own
     assert shared.finest(split.whole, 0.0) is shared.wholes[split.whole][0.0]
     one, two = (
-        contributions_of(partial(bodies.solution, number=1, friction=0.0), split)
+        solutions_of(partial(bodies.solution, number=1, friction=0.0), split)
         for bodies in (alone, shared)
     )
-    for name, values in one.not_contained.figures.items():
-        np.testing.assert_array_equal(values, two.not_contained.figures[name])
+    assert one.keys() == two.keys()
+    for variant, known in one.items():
+        for name, values in known.figures.items():
+            np.testing.assert_array_equal(values, two[variant].figures[name])
     assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
 
 
