@@ -24,8 +24,6 @@ import numpy as np
 from analytic.material import Law, Material
 from analytic.material.third_order import is_elliptic, peak_change, third_order
 from comparisons.common.numbers import percent, with_unit
-from comparisons.figures.quantity import QUANTITIES
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.scenes.materials import RUBBER, kinds_of, measured_solids, scaled_law
@@ -156,38 +154,26 @@ def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law
 
 
 @dataclass(frozen=True)
-class LawSolutions:
-    """The whole at one friction coefficient on its coarsest level, and with other laws."""
-
-    problem: Problem
-    laws: tuple[OpenLaw, ...]
-    whole: QuantitiesOfInterest
-    moved: Mapping[tuple[int, str], QuantitiesOfInterest]  # by place in `laws`, and probe
-
-    def spread(self, name: str, at: int) -> "LawSpread":
-        """Of a quantity, relative, at an asperity where it is a largest value."""
-        low = high = scatter = 0.0
-        scale = abs(self.whole.figures[name][at]) or QUANTITIES[name].scale(self.problem.hertz)
-        for number, law in enumerate(self.laws):
-            moved = {probe: self.moved[number, probe] - self.whole for probe in law.probes}
-            changes = {probe: float(of.figures[name][at] / scale) for probe, of in moved.items()}
-            sizes = list(changes.values())
-            if law.is_scatter:
-                scatter += law.scatter(sizes)
-            else:
-                ends = law.range(changes)
-                low, high = low + ends[0], high + ends[1]
-        half = 0.5 * (high - low) + SETTLED * max(abs(low), abs(high))
-        return LawSpread(0.5 * (low + high), half, (1.0 + SETTLED) * scatter)
-
-
-@dataclass(frozen=True)
 class LawSpread:
     """What the law changes in the whole's figure, relative to it."""
 
     middle: float = 0.0  # of the published solids, against the law that the whole has
     half: float = 0.0  # of their range, about its middle
     scatter: float = 0.0  # of measured constants, for 95 %
+
+
+def law_spread(laws: tuple[OpenLaw, ...], changes: Mapping[tuple[int, str], float]) -> LawSpread:
+    """By what the probes change on the coarsest level, relative, by place in `laws` and probe."""
+    low = high = scatter = 0.0
+    for number, law in enumerate(laws):
+        mine = {probe: changes[number, probe] for probe in law.probes}
+        if law.is_scatter:
+            scatter += law.scatter(mine.values())
+        else:
+            ends = law.range(mine)
+            low, high = low + ends[0], high + ends[1]
+    half = 0.5 * (high - low) + SETTLED * max(abs(low), abs(high))
+    return LawSpread(0.5 * (low + high), half, (1.0 + SETTLED) * scatter)
 
 
 def trust(problem: Problem, whole: Level) -> str | None:

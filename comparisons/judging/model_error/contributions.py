@@ -43,7 +43,8 @@ class SplitVariants:
     of_scene: ModelVariant | None  # that stands for the scene's own finite elements, None: these
     nothing: ModelVariant  # without any effect
     pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
-    laws: dict[tuple[int, str], ModelVariant]  # the whole with other laws of elasticity
+    # the whole with other laws of elasticity, by place in the selection's, and probe
+    laws: dict[tuple[int, str], ModelVariant]
     # the whole at small strains, where increments are the same as at finite ones, by longer
     # increments of flow, the longest first, and by its own; none where the scene's own finite
     # elements flow, or the whole does not

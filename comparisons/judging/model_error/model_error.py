@@ -8,7 +8,7 @@ in the end: an effect is what changes at that asperity. Where the half-plane has
 value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from operator import sub
 
@@ -25,7 +25,7 @@ from comparisons.figures.uncertainty import (
     of_increments,
 )
 from comparisons.judging.effects.catalogue import EFFECTS, LAW
-from comparisons.judging.effects.laws import LawSolutions, LawSpread
+from comparisons.judging.effects.laws import LawSpread, OpenLaw, law_spread
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import SplitVariants
@@ -56,19 +56,12 @@ class Solutions:
 
     case: Case
     split: SplitVariants  # what is solved
+    laws: tuple[OpenLaw, ...] = ()  # of elasticity, that are not known
     # by variant, the solutions on each level, coarse to fine, with None for the scene's own finite
-    # elements: of the wholes alone on the levels beyond `levels_split`
+    # elements: of the wholes alone on the levels beyond `levels_split`; of the checks on the first
     history: tuple[Mapping[ModelVariant | None, QuantitiesOfInterest], ...] = ()
     levels_split: int = 0  # on which the effects are solved one by one
     unsplit: str | None = None  # why there is no such level
-    laws: LawSolutions | None = None  # the whole with other laws; None: its own is known
-    # the whole, at small strains, on the coarsest level by longer increments of flow, the longest
-    # first, and by its own; empty: they have no solution; None: it does not flow, or the scene's
-    # own finite elements do
-    longer: list[QuantitiesOfInterest] | None = None
-    # by effect of size, what lacks it on the coarsest level with its far boundary at half the
-    # distance, where it has a solution
-    nearer: dict[str, QuantitiesOfInterest] = field(default_factory=dict)
 
     @cached_property
     def effects(self) -> dict[str, list[QuantitiesOfInterest]]:
@@ -118,6 +111,14 @@ class Solutions:
             return self.wholes[-1]
         lacking, finest = self.missing[-1].figures.items(), self.of_scene[-1].figures
         return QuantitiesOfInterest({name: finest[name] + value for name, value in lacking})
+
+    @cached_property
+    def longer(self) -> list[QuantitiesOfInterest] | None:
+        """The whole, at small strains, on the coarsest level by longer increments of flow, and by
+        its own; empty: they have no solution; None: there is nothing to check."""
+        asked = self.split.increments
+        found = [self.history[0][variant] for variant in asked if variant in self.history[0]]
+        return (found if len(found) == len(asked) else []) if asked else None
 
     @cached_property
     def unsolved(self) -> float:
@@ -211,7 +212,14 @@ class Solutions:
         )
 
     def _spread(self, name: str, at: int) -> LawSpread:
-        return LawSpread() if self.laws is None else self.laws.spread(name, at)
+        """Of the whole's law of elasticity, by the other ones that it has solutions with."""
+        first, laws, whole = self.history[0], self.split.laws, self.wholes[0]
+        if not self.laws or not first.keys() >= set(laws.values()):
+            return LawSpread()
+        scale = self._scale(whole.figures[name][at], name)
+        moved = {key: first[variant] - whole for key, variant in laws.items()}
+        changes = {key: float(of.figures[name][at] / scale) for key, of in moved.items()}
+        return law_spread(self.laws, changes)
 
     def _size(self, name: str, at: int) -> tuple[float, float]:
         """The whole's figure by the middle of what its law of elasticity may be, and what errors
@@ -247,8 +255,9 @@ class Solutions:
         if EFFECTS[effect].beyond:
             # of the far boundary of the solution without it; unknown where none is nearer
             domain = np.inf
-            if effect in self.nearer:
-                ends = self.nearer[effect], self.history[0][without]
+            nearer = self.history[0].get(self.split.held_nearer[effect])
+            if nearer is not None:
+                ends = nearer, self.history[0][without]
                 domain = far_boundary(*(solution.figures[name][at] for solution in ends))
                 domain /= self._size(name, at)[1]
             unsure += domain

@@ -2,7 +2,7 @@
 further level could change is no verdict."""
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -10,7 +10,6 @@ from functools import partial
 from comparisons.common.tasks import LAST, LATER
 from comparisons.figures.figure import Figure, Figures
 from comparisons.judging.effects.catalogue import LAW
-from comparisons.judging.effects.laws import LawSolutions
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
@@ -19,7 +18,6 @@ from comparisons.judging.model_error.contributions import (
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions, figure_of
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
@@ -71,8 +69,7 @@ class EffectRefinement:
         self.problem, self.solutions = variants.problem, []
         for case in variants.scene.cases:
             split = split_variants(self.problem, selection, case.friction)
-            longer = [] if split.increments else None
-            self.solutions.append(Solutions(case, split, longer=longer))
+            self.solutions.append(Solutions(case, split, selection.laws))
         self.splits = [one.split for one in self.solutions]
         variants.keep(split.whole for split in self.splits)
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
@@ -101,10 +98,6 @@ class EffectRefinement:
             is_open = any(self.variants.is_open(variant, number) for variant in self.every)
             if number <= LEAST_LEVELS or not is_open:
                 self._take(number, alone=False)
-        self.solutions = [
-            replace(one, nearer=self._coarsest(one, one.split.held_nearer))
-            for one in self.solutions
-        ]
         finest = self.variants.finest
         return ErrorBudget(
             selection=self.selection,
@@ -118,11 +111,10 @@ class EffectRefinement:
 
     def _take_wholes(self, most: int, is_frugal: bool) -> str | None:
         """As many levels of the wholes as it takes; which one cannot change a verdict."""
-        for number in range(len(self.solutions[0].history) + 1, min(most, LEAST_LEVELS) + 1):
+        for number in range(1, min(most, LEAST_LEVELS) + 1):
             self._take(number, alone=True)
         if most >= LEAST_LEVELS:
-            self._take_laws()
-            self._take_increments()
+            self._take_checks()
         for number in range(LEAST_LEVELS + 1, most + 1):
             errors = self._errors()
             if _settled(self.rows, errors):
@@ -146,7 +138,9 @@ class EffectRefinement:
         for one in self.solutions:
             solved = partial(self.variants.solution, number=number, friction=one.case.friction)
             found, nothing = solutions_of(solved, one.split, alone), one.split.nothing
-            one = replace(one, history=(*one.history[: number - 1], found, *one.history[number:]))
+            before = one.history[number - 1] if number <= len(one.history) else {}
+            history = (*one.history[: number - 1], before | found, *one.history[number:])
+            one = replace(one, history=history)
             if not alone:
                 why = None if nothing in found else str(self.variants.failed[nothing, number])
                 why = one.unsplit or why
@@ -154,37 +148,21 @@ class EffectRefinement:
             taken.append(one)
         self.solutions = taken  # all of them, or none
 
-    def _take_laws(self) -> None:
-        """The wholes on the coarsest level with other laws; where one has no solution, none."""
-        moved = [self._coarsest(one, one.split.laws) for one in self.solutions]
-        for variant in (variant for split in self.splits for variant in split.laws.values()):
-            if (error := self.variants.failed.get((variant, 1))) is not None:
-                why = f"with the law of {variant.laws_name}: {error}"
-                self.selection = self.selection.without(frozenset({LAW}), why)
-                return
-        known, laws = zip(self.solutions, moved, strict=True), (self.problem, self.selection.laws)
-        self.solutions = [
-            replace(one, laws=LawSolutions(*laws, one.wholes[0], of) if of else None)
-            for one, of in known
-        ]
-
-    def _take_increments(self) -> None:
-        """The wholes that flow on the coarsest level by longer increments; none where one of them
-        has no solution."""
+    def _take_checks(self) -> None:
+        """On the coarsest level, those checks that have a solution; where one of the laws has none,
+        no law is taken."""
         for number, one in enumerate(self.solutions):
-            longer = self._coarsest(one, dict(enumerate(one.split.increments)))
-            if longer and len(longer) == len(one.split.increments):
-                self.solutions[number] = replace(one, longer=list(longer.values()))
-
-    def _coarsest(
-        self, one: Solutions, asked: Mapping[Hashable, ModelVariant]
-    ) -> dict[Hashable, QuantitiesOfInterest]:
-        """By key, those variants of a case that have a solution on the coarsest level."""
-        found = {}
-        for key, variant in asked.items():
-            with suppress(NotComputedError):
-                found[key] = self.variants.solution(variant, 1, one.case.friction)
-        return found
+            first = dict(one.history[0])
+            for variant in one.split.checks:
+                with suppress(NotComputedError):
+                    first[variant] = self.variants.solution(variant, 1, one.case.friction)
+            self.solutions[number] = replace(one, history=(first, *one.history[1:]))
+        laws = (variant for split in self.splits for variant in split.laws.values())
+        failed = [error for law in laws if (error := self.variants.failed.get((law, 1)))]
+        if failed and self.selection.laws:
+            why = f"with the law of {failed[0].variant.laws_name}: {failed[0]}"
+            self.selection = self.selection.without(frozenset({LAW}), why)
+            self.solutions = [replace(one, laws=()) for one in self.solutions]
 
     def _errors(self) -> list[Figure]:
         known = [(one, row) for one in self.solutions for row in self.rows]

@@ -44,7 +44,7 @@ def what_is_left(parts: Solutions) -> QuantitiesOfInterest:
 def split_by(problem, solutions, friction=0.0, contained=(), added=()):
     """The variants, and what was solved on one level."""
     split = split_variants(problem, selection_of(contained, added), friction)
-    return split, Solutions(Case(problem), split, (solutions_of(solutions, split),), 1)
+    return split, Solutions(Case(problem), split, (), (solutions_of(solutions, split),), 1)
 
 
 @pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))

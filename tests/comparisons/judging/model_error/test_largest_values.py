@@ -57,7 +57,7 @@ def errors(
         relative_resolution=lambda *levels: 0.0,
         formal_order=lambda *of: 2.0,
     ):
-        solutions = Solutions(Case(problem, runs), split, tuple(history), 3)
+        solutions = Solutions(Case(problem, runs), split, (), tuple(history), 3)
         if read is not None:
             return {error.quantity: error for error in read(solutions)}
         return {row.quantity: solutions.error(row) for row in rows}
