@@ -1,13 +1,24 @@
-"""Standard parameters against waves whose figures are known, and against the table of cut-offs."""
+"""Standard parameters against waves whose figures are known, and against the table of cut-offs.
+Roughness figures against integrals done by hand."""
 
-from math import pi, sqrt
+from math import inf, pi, sqrt
 
 import numpy as np
 import pytest
+from scenes import MEASURED, PROFILES
+from text_profiles import read_profile
 
 from analytic.profile import Profile
 from analytic.surface.filters import filtered
-from analytic.surface.roughness import figures_of, roughness, stretch_of
+from analytic.surface.roughness import (
+    bearing_curve,
+    figures_of,
+    power_spectrum,
+    roughness,
+    shortest_wavelength,
+    stretch_of,
+    summits,
+)
 from analytic.surface.roughness_standard import (
     standard_cutoff,
     standard_roughness,
@@ -205,3 +216,217 @@ def test_samples_too_far_apart_have_no_short_cutoff():
     assert standard_short_cutoff(profile, 0.8e-3) is None
     assert standard_short_cutoff(profile, 2.5e-3) == 8e-6
     assert standard_short_cutoff(profile, 2e-6) is None
+
+
+UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
+RQ = sqrt(4 / 45)  # of the parabola
+
+
+def as_array(figures):
+    return np.array([getattr(figures, name) for name in figures.__dataclass_fields__])
+
+
+@pytest.mark.parametrize(
+    ("power", "exact"),
+    [
+        (1, [0.0, 1 / 2, 1 / sqrt(3), 0.0, 9 / 5, 2.0, 1.0, 1.0]),
+        (2, [1 / 3, 4 / (9 * sqrt(3)), RQ, 16 / 945 / RQ**3, 16 / 945 / RQ**4, 1, sqrt(4 / 3), 2]),
+        (3, [0.0, 1 / 4, 1 / sqrt(7), 0.0, 49 / 13, 2.0, 3 / sqrt(5), 3.0]),
+    ],
+)
+def test_powers_are_exact(power, exact):
+    figures = as_array(roughness(Profile(UNEVEN, UNEVEN**power)))
+    np.testing.assert_allclose(figures, exact, rtol=1e-12, atol=1e-13)
+
+
+def test_extremes_between_the_samples_count():
+    # z = x^3 - 0.12 x has its turning points at x = -0.2 and 0.2, away from all samples.
+    figures = roughness(Profile(UNEVEN, UNEVEN**3 - 0.48 * UNEVEN**2))
+    assert figures.max_slope == pytest.approx(3.96, rel=1e-12)
+    inner = roughness(Profile(0.3 * UNEVEN, (0.3 * UNEVEN) ** 3 - 0.12 * 0.3 * UNEVEN))
+    assert inner.rt == pytest.approx(2 * 0.016, rel=1e-12)
+    assert inner.max_slope == pytest.approx(0.15, rel=1e-12)
+    flat_middle = roughness(Profile(UNEVEN, UNEVEN - UNEVEN**3 / 3))
+    assert flat_middle.max_slope == pytest.approx(1.0, rel=1e-12)
+
+
+def test_sinusoid():
+    amplitude, wavelength = 0.2e-6, 10e-6
+    figures = roughness(sinusoid(wavelength=wavelength, amplitude=amplitude, length=8 * wavelength))
+    k = 2 * pi / wavelength
+    assert abs(figures.mean) < 1e-7 * amplitude
+    assert abs(figures.rsk) < 1e-6
+    exact = [2 / pi * amplitude, amplitude / sqrt(2), 1.5, 2 * amplitude]
+    np.testing.assert_allclose([figures.ra, figures.rq, figures.rku, figures.rt], exact, rtol=1e-6)
+    slopes = [k * amplitude / sqrt(2), k * amplitude]
+    np.testing.assert_allclose([figures.rms_slope, figures.max_slope], slopes, rtol=1e-5)
+
+
+def test_the_spline_reaches_the_sinusoid_at_fourth_order():
+    errors = []
+    for samples in (16, 32, 64, 128):
+        wave = sinusoid(wavelength=1.0, amplitude=1.0, length=16.0, samples_per_wavelength=samples)
+        # Whole waves off the ends, where the not-a-knot conditions would dominate.
+        inside = np.abs(wave.x) < 6.0 + 1e-9
+        figures = roughness(Profile(wave.x[inside], wave.height[inside]))
+        errors.append(abs(figures.rq - 1 / sqrt(2)))
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(np.abs(orders - 4.0) < 0.5), orders
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-6, 1.0])
+@pytest.mark.parametrize("stretch", [1e-6, 1e3])
+def test_units_do_not_matter(scale, stretch):
+    base = self_affine(hurst=0.8, samples=400, length=1.0, seed=5, rms_height=1.0)
+    wanted = as_array(roughness(base))
+    figures = as_array(roughness(Profile(stretch * base.x, scale * base.height)))
+    figures[[0, 1, 2, 5]] /= scale
+    figures[6:] /= scale / stretch
+    np.testing.assert_allclose(figures, wanted, rtol=1e-9, atol=1e-12)
+
+
+def test_offset_and_mirror_change_only_what_they_should():
+    base = self_affine(hurst=0.8, samples=400, length=1e-3, seed=5, rms_height=1e-7)
+    wanted = roughness(base)
+    lifted = roughness(Profile(base.x, base.height + 1e-3))
+    assert lifted.mean == pytest.approx(1e-3 + wanted.mean, rel=1e-12)
+    np.testing.assert_allclose(as_array(lifted)[1:], as_array(wanted)[1:], rtol=1e-8)
+    mirrored = as_array(roughness(base.mirrored()))
+    np.testing.assert_allclose(mirrored[1:], as_array(wanted)[1:], rtol=1e-9)
+    upside_down = roughness(Profile(base.x, -base.height))
+    assert upside_down.rsk == pytest.approx(-wanted.rsk, rel=1e-9)
+
+
+def test_flat_profile_has_no_roughness():
+    figures = roughness(Profile(UNEVEN, np.full(len(UNEVEN), 2.5)))
+    assert figures.mean == 2.5
+    assert np.all(as_array(figures)[1:] == 0.0)
+
+
+@pytest.mark.parametrize("waves", [4, 30])
+def test_shortest_wavelength_of_a_sinusoid_is_its_own(waves):
+    wavelength = 12e-6
+    wave = sinusoid(wavelength=wavelength, amplitude=1e-7, length=waves * wavelength)
+    length = shortest_wavelength(wave)
+    # The window spreads a single wave by one wave number step towards short waves.
+    assert wavelength / (1.0 + 1.0 / waves) <= length <= wavelength * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(("share", "waves"), [(0.02, 100.0), (0.005, 20.0)])
+def test_waves_count_from_a_hundredth_of_the_slopes_variance_on(share, waves):
+    x = np.linspace(0.0, 1.0, 4001)
+    short = np.sqrt(share / (1.0 - share)) * np.sin(2 * pi * 100 * x) / 100
+    profile = Profile(x, np.sin(2 * pi * 20 * x) / 20 + short)
+    assert 1 / shortest_wavelength(profile) == pytest.approx(waves, abs=1.5)
+
+
+@pytest.mark.parametrize("cut_off", [5e-6, 20e-6])
+def test_shortest_wavelength_of_a_self_affine_profile_is_its_cut_off(cut_off):
+    lengths = [
+        shortest_wavelength(
+            self_affine(
+                hurst=0.8,
+                samples=4001,
+                length=2e-3,
+                seed=seed,
+                rms_slope=0.05,
+                shortest_wavelength=cut_off,
+            )
+        )
+        for seed in range(6)
+    ]
+    # Slope power ~ k^(1 - 2H): 99 % of it lies below 0.975 of the cut-off wave number.
+    assert np.mean(lengths) == pytest.approx(cut_off / 0.975, rel=0.02)
+    assert np.all(np.abs(np.array(lengths) / cut_off - 1.0) < 0.1)
+
+
+def test_shortest_wavelength_on_uneven_samples_and_other_units():
+    x = np.cumsum(np.random.default_rng(4).uniform(0.5, 1.5, 3000))
+    x = x / x[-1]
+    profile = Profile(x, np.sin(2 * pi * 40 * x))
+    length = shortest_wavelength(profile)
+    assert 1 / 41 <= length <= 1 / 39.9
+    scaled = Profile(1e-3 * x, 1e-9 * profile.height + 1e-4)
+    assert shortest_wavelength(scaled) == pytest.approx(1e-3 * length, rel=1e-6)
+    assert shortest_wavelength(profile.mirrored()) == pytest.approx(length, rel=1e-9)
+
+
+def test_tilt_has_no_wavelength():
+    x = np.linspace(0.0, 1e-3, 500)
+    for height in (np.zeros(500), np.full(500, 1e-3), 0.01 * x + 1e-6):
+        assert shortest_wavelength(Profile(x, height)) == inf
+    wave = 1e-7 * np.sin(2 * pi * 25 * x / 1e-3)
+    tilted = shortest_wavelength(Profile(x, wave + 0.1 * x))
+    assert tilted == pytest.approx(shortest_wavelength(Profile(x, wave)), rel=1e-6)
+
+
+# Ra, Rq [um], skewness, rms slope, shortest wavelength [um] as PROVENANCE.md states them.
+STATED = {
+    "ground_unrun": (0.364, 0.461, -0.88, 0.067, 10.0),
+    "ground_run_in": (0.196, 0.282, -2.44, 0.043, None),
+    "ground_polished": (0.145, 0.188, -0.94, 0.015, None),
+}
+
+
+@pytest.mark.parametrize("name", STATED)
+def test_profiles_of_the_project_have_their_stated_figures(name):
+    profile = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6).profile
+    figures = roughness(profile)
+    ra, rq, rsk, slope, cut_off = STATED[name]
+    np.testing.assert_allclose([1e6 * figures.ra, 1e6 * figures.rq], [ra, rq], atol=0.5e-3)
+    assert figures.rsk == pytest.approx(rsk, abs=0.005)
+    assert figures.rms_slope == pytest.approx(slope, abs=0.5e-3)
+    if cut_off is not None:
+        assert 1e6 * shortest_wavelength(profile) == pytest.approx(cut_off, rel=0.05)
+
+
+# Ra, Rq, Rt [um] of the samples, and their finite-difference rms slope.
+SAMPLED = {
+    "real_stylus_mitutoyo": (3.30584, 3.968897, 22.23523, 0.155932),
+    "real_confocal_lay_row": (0.013935, 0.017138, 0.08388, 0.003732),
+    "real_stylus_dektak": (0.081254, 0.094243, 0.45642, 0.00946),
+}
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_measured_profiles_have_their_certified_figures(name):
+    path = MEASURED / f"{name}.csv"
+    if not path.exists():
+        pytest.skip(f"measured profile {name}.csv is not beside the repository")
+    profile = read_profile(path, x_scale=1e-6, height_scale=1e-6).profile
+    figures = roughness(profile)
+    ra, rq, rt, slope = SAMPLED[name]
+    np.testing.assert_allclose([1e6 * figures.ra, 1e6 * figures.rq], [ra, rq], rtol=2e-3)
+    assert rt * (1 - 1e-6) <= 1e6 * figures.rt <= 1.01 * rt  # the spline may overshoot a little
+    # Finite differences average the slope over a spacing, and so fall short of the spline's.
+    assert slope <= figures.rms_slope <= 1.06 * slope
+    spacing = profile.spacing
+    assert 2.0 * spacing * 0.9 <= shortest_wavelength(profile) <= 20.0 * spacing
+
+
+def test_summits_of_two_waves():
+    """cos x + cos(x/2)/10: summits alternate between 1.1 and 0.9, near enough to their places."""
+    x = np.linspace(-2.0 * np.pi, 14.0 * np.pi, 6401)
+    profile = Profile(x, np.cos(x) + 0.1 * np.cos(0.5 * x))
+    spread, curvature = summits(profile)
+    assert spread == pytest.approx(0.1, rel=0.02)
+    assert curvature == pytest.approx(1.0, rel=1e-2)
+    assert summits(Profile(x, 0.1 * x)) == (0.0, 0.0)
+
+
+def test_a_power_spectrum_holds_the_mean_square_height():
+    profile = self_affine(hurst=0.8, samples=4096, length=1e-3, rms_height=1e-6, seed=3)
+    wavenumber, density = power_spectrum(profile)
+    assert np.sum(density) * wavenumber[0] == pytest.approx(1e-12, rel=0.15)
+    x = 1e-6 * np.arange(2000)
+    wave = Profile(x, 2e-7 * np.sin(2.0 * np.pi * 20.0 * x / x[-1]))
+    wavenumber, density = power_spectrum(wave)
+    assert wavenumber[np.argmax(density)] == pytest.approx(20.0 / x[-1], rel=1e-9)
+    assert np.sum(density) * wavenumber[0] == pytest.approx(2e-14, rel=1e-3)
+
+
+def test_a_bearing_curve_is_that_of_a_wave():
+    """Of a sine the share c is as high as cos(pi c)."""
+    x = np.linspace(0.0, 1.0, 2001)
+    share, height = bearing_curve(Profile(x, np.sin(2.0 * np.pi * 20.0 * x)))
+    np.testing.assert_allclose(height, np.cos(np.pi * share), atol=3e-3)
