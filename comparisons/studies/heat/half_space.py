@@ -7,13 +7,11 @@ Stresses are steady and elastic, of a body that the bulk temperature leaves with
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from analytic.heat.moving_source import HeatedSurface
-from analytic.heat.partition import divided
-from analytic.heat.thermal_stress import thermal_stress
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
 from comparisons.models.level import Level
@@ -26,6 +24,9 @@ from comparisons.models.readings import (
     stresses_at,
 )
 from comparisons.models.window import Window, search_window
+
+if TYPE_CHECKING:
+    from analytic.heat.moving_source import HeatedSurface
 
 # Peclet number V a / (2 kappa) of the contact's half-width a. Faster, and the heated layer is
 # thinner than a seventieth of a: mesh and half-space would need elements for that alone. Slower,
@@ -84,8 +85,12 @@ def heat_of_friction(problem: Problem, level: Level) -> np.ndarray:
     return problem.largest_friction * problem.scene.heat.speed * level.solution.pressure
 
 
-def half_spaces(problem: Problem, count: int, pitch: float) -> tuple[HeatedSurface, HeatedSurface]:
+def half_spaces(
+    problem: Problem, count: int, pitch: float
+) -> "tuple[HeatedSurface, HeatedSurface]":
     """Body and roller as half-spaces of one material each, on nodes of one pitch [m]."""
+    from analytic.heat.moving_source import HeatedSurface
+
     heat = problem.scene.heat
     materials = (heat.body, heat.roller)
     return tuple(
@@ -96,6 +101,8 @@ def half_spaces(problem: Problem, count: int, pitch: float) -> tuple[HeatedSurfa
 
 def half_space_heat(problem: Problem, level: Level) -> HeatedContact:
     """Both surfaces' temperatures, equal where they touch, under the pressures of a level."""
+    from analytic.heat.partition import divided
+
     grid, heat = level.grid, heat_of_friction(problem, level)
     parts = divided(*half_spaces(problem, grid.count, grid.pitch), heat)
     return HeatedContact(grid.x, heat, parts.flux, parts.first, parts.second, parts.fraction)
@@ -220,6 +227,8 @@ def _thermal_line(
 ) -> tuple[np.ndarray, StressState]:
     """x (n,) [m] over contact and span, as dense as the fluxes, and thermal stresses (m, n) [Pa]
     at depths (m,) [m]."""
+    from analytic.heat.thermal_stress import thermal_stress
+
     contact, pitch = half_space_heat(problem, level), level.grid.pitch
     ends = contact.x[0] - span[0], span[1] - contact.x[-1]
     before, after = (max(0, int(np.ceil(beyond / pitch)) + 4) for beyond in ends)

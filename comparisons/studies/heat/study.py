@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from analytic.heat.partition import layered_fraction, one_fraction
 from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
@@ -202,6 +201,8 @@ def _parts(
 
 def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:
     """Older rules on the half-spaces, under the heat of a solved contact."""
+    from analytic.heat.partition import layered_fraction, one_fraction
+
     heat, pitch = contact.heat, float(contact.x[1] - contact.x[0])
     bodies, settings = half_spaces(problem, len(heat), pitch), problem.scene.heat
     surface = settings.coating or settings.body
