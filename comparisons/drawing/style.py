@@ -149,14 +149,6 @@ def fill_bodies(
     axes.grid(False)
 
 
-def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
-    """Axes of bars that lie under each other at `places`, which descend from 0."""
-    axes.set_ylim(places[-1] - 0.6, 0.6)
-    axes.set_yticks(places, names)
-    axes.tick_params(axis="y", length=0.0)
-    axes.grid(False, axis="y")
-
-
 def beside_bar(axes: "Axes", x: float, y: float, text: str) -> None:
     """Words to the right of a bar's end."""
     beside = {"textcoords": "offset points", "va": "center", "bbox": BEHIND_WORDS}

@@ -25,6 +25,7 @@ from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, ProfileInfo, SceneSurface, surface_of
 
 SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of levels
+HOW_READ = ("format", "place", "bridged", "trimmed", "stretch")  # a trace
 # What is raised where a file is built otherwise than a run writes it.
 BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
@@ -53,9 +54,7 @@ def record_of(problem: Problem, runs: dict[str, ModelRun], hashes: dict[str, str
 
 
 def _profile(pressed: Profile, info: ProfileInfo) -> dict:
-    names = ("format", "place", "bridged", "trimmed", "stretch")
-    how = {name: getattr(info, name) for name in names}
-    trace = _samples(info.trace) | how
+    trace = _samples(info.trace) | {name: getattr(info, name) for name in HOW_READ}
     return _samples(pressed) | {"file_sha256": info.sha256, "trace": trace}
 
 
@@ -136,11 +135,9 @@ def _trace(path: Path, profile: dict) -> KnownTrace:
     if digest(x, height) != trace["sha256"]:
         what = "has another SHA-256 than recorded; allowed is what was recorded"
         raise InputError(f"{path}: profile.trace: {what}")
-    names = ("format", "place", "bridged", "trimmed")
-    how = {name: trace[name] for name in names}
-    stretch = trace["stretch"] and tuple(trace["stretch"])
-    read = MeasuredProfile(profile=Profile(x, height), stretch=stretch, **how)
-    return KnownTrace(read, profile["file_sha256"])
+    how = {name: trace[name] for name in HOW_READ}
+    how["stretch"] = how["stretch"] and tuple(how["stretch"])
+    return KnownTrace(MeasuredProfile(profile=Profile(x, height), **how), profile["file_sha256"])
 
 
 def read_table(path: Path) -> dict:
