@@ -28,7 +28,7 @@ def differences(case: Case, model: ModelRun, solved: Solved) -> Iterator[Figure]
     """Those of an analytic model from the finite elements of a case, and their norms."""
     elements = case.runs["finite_element"]
     yield from judged(model, case.problem, elements).values()
-    yield from norms_of(model, case.problem, elements, solved.window)
+    yield from norms_of(model, case.problem, elements)
 
 
 def discretisations(case: Case) -> dict[str, float]:

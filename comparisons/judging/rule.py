@@ -126,15 +126,14 @@ def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -
     return judged_by(COMPARISON if against else CONTACT, both, read, how, at)
 
 
-def norms_of(
-    model: ModelRun, problem: Problem, against: ModelRun, window: Window | None
-) -> Iterable[Figure]:
+def norms_of(model: ModelRun, problem: Problem, against: ModelRun) -> Iterable[Figure]:
     """The norms of both models' difference. They may be equal by chance: what a repetition changes
     counts by its own norm."""
     both, first = (model, against), against.levels[0]
-    repeated = by_repetition([against], lambda level: norms(level, first, window))
+    read = partial(norms, window=problem.window)
+    repeated = by_repetition([against], lambda level: read(level, first))
     unsolved = iteration(*(one.finest.solution for one in both))
-    at, read = {"friction": problem.scene.load.friction[0]}, partial(norms, window=window)
+    at = {"friction": problem.scene.load.friction[0]}
 
     def how(name: str, size: float) -> Reading:
         return Reading(NORMS[name].formal_order, iteration=unsolved)

@@ -42,7 +42,6 @@ from comparisons.judging.rule import Reading, judged_by
 from comparisons.judging.study import Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 
 NAME = "quiescent_zone"
 _depth = partial(Quantity, unit="m", scale=attrgetter("half_width"), over=(1.0, "a"))
@@ -108,10 +107,10 @@ def state_of(dip: Mapping[str, float]) -> str:
     return SMOOTH if dip["level"] < QUIET else BRIDGED
 
 
-def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 1) -> np.ndarray:
+def mean_shear(problem: Problem, tau1: np.ndarray, every: int = 1) -> np.ndarray:
     """Root mean square (m,) of tau1 (m, k) over |x| <= a, on every n-th column of the window; of
     what lies in the body where its boundary is rough."""
-    a, x = problem.hertz.half_width, window.x[::every]
+    a, x = problem.hertz.half_width, problem.window.x[::every]
     half = 0.5 * (x[1] - x[0])
     weights = np.clip(np.minimum(x + half, a) - np.maximum(x - half, -a), 0.0, None)
     square = tau1[:, ::every] ** 2
@@ -120,18 +119,18 @@ def mean_shear(problem: Problem, window: Window, tau1: np.ndarray, every: int = 
         return np.sqrt(np.sum(np.nan_to_num(square) * inside, axis=1) / np.sum(inside, axis=1))
 
 
-def zone_of(problem: Problem, level: Level, window: Window, every: int = 1) -> dict[str, float]:
+def zone_of(problem: Problem, level: Level, every: int = 1) -> dict[str, float]:
     """`shear_dip` of one level, read on every n-th row and column of the window; Pa and m."""
     tau1 = level.stress.field.tau1[::every]
-    shear = mean_shear(problem, window, tau1, every)
-    return shear_dip(window.z[::every], shear, DEEP * problem.hertz.half_width)
+    shear = mean_shear(problem, tau1, every)
+    return shear_dip(problem.window.z[::every], shear, DEEP * problem.hertz.half_width)
 
 
-def asperity_rows(problem: Problem, level: Level, window: Window) -> list[dict[str, object]]:
+def asperity_rows(problem: Problem, level: Level) -> list[dict[str, object]]:
     """By each asperity that touches at |x| <= a, its zone as wide as it: place and length of its
     contact [m], and the dip of the largest shear below it."""
     a, tau1 = problem.hertz.half_width, level.stress.field.tau1
-    rows, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
+    rows, window, tau1 = [], problem.window, np.where(np.isfinite(tau1), tau1, -inf)
     for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
         columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
         patches = np.clip(level.patches, max(start, -a), min(stop, a))
@@ -147,18 +146,15 @@ def asperity_rows(problem: Problem, level: Level, window: Window) -> list[dict[s
     return rows
 
 
-def zone_figures(case: Case, run: ModelRun, window: Window) -> tuple[tuple[Figure, ...], str]:
+def zone_figures(case: Case, run: ModelRun) -> tuple[tuple[Figure, ...], str]:
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
-    coarse, unsolved = zone_of(case.problem, run.finest, window, 2), iteration(run.finest.solution)
-
-    def read(level: Level) -> dict[str, float]:
-        return zone_of(case.problem, level, window)
+    coarse, unsolved = zone_of(case.problem, run.finest, 2), iteration(run.finest.solution)
 
     def how(name: str, value: float) -> Reading:
         return Reading(ORDER, abs(value) or 1.0, iteration=unsolved * bool(value))
 
-    figures = {}
+    figures, read = {}, partial(zone_of, case.problem)
     for name, figure in judged_by(NAME, [run], read, how, case.at).items():
         stated, apart = figure.uncertainty, abs(coarse[name] - figure.value) / figure.scale
         parts = {**stated.parts, "reading": apart}
@@ -184,14 +180,14 @@ def needs(solved: Solved) -> str | None:
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
     """Of every model at every friction coefficient: the dip, and those below single asperities."""
-    window, figures, series, states = solved.window, [], [], []
+    figures, series, states = [], [], []
     units = {"x": "m", "length": "m", "level": "", "state": ""}.items()
     for name in solved.runs:
         for case in solved.cases:
-            of_zone, state = zone_figures(case, case.runs[name], window)
+            of_zone, state = zone_figures(case, case.runs[name])
             figures += of_zone
             states.append(Statement(STATE, state, name, case.at))
-            rows = asperity_rows(case.problem, case.runs[name].finest, window)
+            rows = asperity_rows(case.problem, case.runs[name].finest)
             columns = {key: Column(tuple(row[key] for row in rows), unit) for key, unit in units}
             series.append(Series(ASPERITIES, columns, name, case.at))
     return Findings(tuple(figures), tuple(series), tuple(states))

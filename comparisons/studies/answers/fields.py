@@ -52,7 +52,7 @@ class PlaneMesh:
 
 
 def read_fields(
-    path: Path, source: AnswerSection, problem: Problem, window: Window | None
+    path: Path, source: AnswerSection, problem: Problem
 ) -> tuple[tuple[np.ndarray, ...], dict[str, object]]:
     """x (n,) [m], pressure and traction (n,) [Pa] along the surface, and the fields of an `Answer`
     that stresses on the window make; of a contact that friction holds none, for the models' are
@@ -80,9 +80,9 @@ def read_fields(
             "z_origin, x_origin or units that bring it there"
         )
     stresses = {}
-    if window is not None and problem.scene.partial_slip is None:
+    if problem.window is not None and problem.scene.partial_slip is None:
         top = np.argsort(x)
-        stresses = _stresses(body, (x[top], z[top]), friction, problem, window)
+        stresses = _stresses(body, (x[top], z[top]), friction, problem)
     return checked(x, pressure, shear), stresses
 
 
@@ -207,16 +207,12 @@ def _surface_tractions(body: PlaneMesh) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def _stresses(
-    body: PlaneMesh,
-    top: tuple[np.ndarray, np.ndarray],
-    friction: float,
-    problem: Problem,
-    window: Window,
+    body: PlaneMesh, top: tuple[np.ndarray, np.ndarray], friction: float, problem: Problem
 ) -> dict[str, object]:
     """Largest values at the nodes in the window, the fields on it, and the nodes' distance.
 
     top  x and z (k,) [m] of the surface, x ascending"""
-    stress, nu = body.stress, problem.scene.body.poissons_ratio
+    stress, nu, window = body.stress, problem.scene.body.poissons_ratio, problem.window
     inside = window.holds(body.x) & (body.z <= window.z[-1])
     if not inside.any():
         raise ValueError("has no node in the window of [stress]; allowed is one around x = 0")

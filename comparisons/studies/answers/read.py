@@ -9,7 +9,6 @@ from analytic.surface.readers.source import MAX_BYTES, ProfileError, contents
 from analytic.surface.readers.text import read_table
 from comparisons.common.errors import InputError, one_line
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.scenes.studies.answers import AnswerSection
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.fields import checked, read_fields
@@ -18,16 +17,14 @@ TABLES = (".csv", ".txt", ".dat", ".tsv", ".asc")
 LONGEST = 200  # characters of what a library says
 
 
-def read_answers(problem: Problem, window: Window | None) -> dict[str, tuple[Answer, ...]]:
+def read_answers(problem: Problem) -> dict[str, tuple[Answer, ...]]:
     """The scene's answers by name, each on its resolutions, coarse to fine.
     Raises InputError for a file that cannot be read, or is none of the scene's kind."""
     named = problem.scene.answers or {}
-    return {name: _read(name, source, problem, window) for name, source in named.items()}
+    return {name: _read(name, source, problem) for name, source in named.items()}
 
 
-def _read(
-    name: str, source: AnswerSection, problem: Problem, window: Window | None
-) -> tuple[Answer, ...]:
+def _read(name: str, source: AnswerSection, problem: Problem) -> tuple[Answer, ...]:
     answers = []
     for file in source.file:
         path, known = problem.scene.folder / file, {}
@@ -37,7 +34,7 @@ def _read(
             if is_table:
                 curves, known["columns"] = _read_curve(path, source)
             else:
-                curves, known = read_fields(path, source, problem, window)
+                curves, known = read_fields(path, source, problem)
         except ProfileError as error:
             said = str(error).replace("a profile is a text file", "allowed is a file")
             raise InputError(f"answers.{name}.file: {said}") from None

@@ -34,7 +34,6 @@ from comparisons.figures.uncertainty import Uncertainty, difference_of_figures, 
 from comparisons.judging.rule import judged, norms, norms_of, relative_differences, values_of
 from comparisons.judging.study import SCATTER, Case, Solved
 from comparisons.models.level import Level
-from comparisons.models.window import Window
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.conditions import conditions, operators_of
 from comparisons.studies.answers.hints import hints
@@ -65,7 +64,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         frictions = problem.scene.load.friction if source.friction is None else (source.friction,)
         cases = [solved.case(friction) for friction in frictions]
         for case in cases:
-            figures += _figures(case, solved.window, name, answers[name])
+            figures += _figures(case, name, answers[name])
             if source.scatter is not None:
                 known = scattered.of(friction=case.friction)
                 validation += _validation(case, finest, source.scatter, known)
@@ -91,7 +90,7 @@ def _read(solved: Solved, tasks: Tasks) -> Mapping[str, tuple[Answer, ...]]:
         return solved.answers
     from comparisons.studies.answers.read import read_answers
 
-    return tasks.held(NAME, NAME, lambda: read_answers(solved.problem, solved.window))
+    return tasks.held(NAME, NAME, lambda: read_answers(solved.problem))
 
 
 def _errors(name: str, answer: str, rows: list[dict]) -> Series:
@@ -124,9 +123,7 @@ def _values(answer: Answer, case: Case) -> dict[str, float]:
     return values | {"peak_pressure": float(answer.pressure.max())}
 
 
-def _figures(
-    case: Case, window: Window | None, name: str, answers: tuple[Answer, ...]
-) -> Iterator[Figure]:
+def _figures(case: Case, name: str, answers: tuple[Answer, ...]) -> Iterator[Figure]:
     """An answer's figures in a case, where it has them, and their differences from the last
     model's, (answer - model) / model, or norms, in the order of COMPARED. Uncertain is a difference
     by the model and by the answer's own, or else by how finely its points are read."""
@@ -134,11 +131,11 @@ def _figures(
     scatter, tolerances = problem.scene.answers[name].scatter, problem.scene.tolerances
     values, reference = _values(finest, case), values_of(model.finest, problem)
     levels = tuple(_on_level(finest, level, case.friction) for level in model.levels)
-    of_norms = norms_of(replace(model, name=name, levels=levels), problem, model, window)
+    of_norms = norms_of(replace(model, name=name, levels=levels), problem, model)
     stated = judged(model, problem) | {figure.quantity: figure for figure in of_norms}
     by_answer = [
         relative_differences(_values(answer, case), reference, problem)
-        | norms(_on_level(answer, model.finest, case.friction), model.finest, window)
+        | norms(_on_level(answer, model.finest, case.friction), model.finest, problem.window)
         for answer in answers
     ]
     for quantity in COMPARED:

@@ -15,7 +15,6 @@ from comparisons.models.finite_element.contact import MutualCompliance, complian
 from comparisons.models.level import Level
 from comparisons.models.operators import is_layered, operator_of
 from comparisons.models.problem import Problem
-from comparisons.models.window import Window
 from comparisons.studies.friction.half_planes import (
     SlippedLevel,
     bulk_stress,
@@ -33,11 +32,7 @@ SETTLED = 1e-6
 
 
 def finite_element_slip(
-    problem: Problem,
-    level: Level,
-    window: Window | None,
-    increments: int,
-    half_block: bool = False,
+    problem: Problem, level: Level, increments: int, half_block: bool = False
 ) -> SlippedLevel:
     """Of the finite elements of a level, made again; a `half_block` ends an unbounded body at half
     of its size."""
@@ -47,7 +42,7 @@ def finite_element_slip(
         last = slipped.states[-1]
         lowered = operator.rough.moved(last.normal.pressure, last.traction)[0] / grid.weights
         slipped = replace(slipped, lowering=float(np.interp(0.0, grid.x, lowered)))
-    return slipped if window is None else _with_mesh_stress(problem, operator, slipped, window)
+    return _with_mesh_stress(problem, operator, slipped) if problem.window else slipped
 
 
 def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatGrid) -> SurfacePair:
@@ -81,7 +76,7 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
 
 
 def _with_mesh_stress(
-    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel, window: Window
+    problem: Problem, operator: MutualCompliance, slipped: SlippedLevel
 ) -> SlippedLevel:
     """With the largest stresses of the rough body, recovered from displacements under the
     tractions, and the bulk stress, in a coating that of the strain below."""
@@ -104,6 +99,6 @@ def _with_mesh_stress(
         whole, load = last if number == -1 else stressed(number)
         return evaluate(body, whole, x, load.surface(x))
 
-    last, bounds = stressed(-1), (*window.ends, window.z[-1])
+    last, bounds = stressed(-1), (*problem.window.ends, problem.window.z[-1])
     tau1 = maximum(body, last[0], lambda stress: stress.tau1, bounds)
-    return with_surface(problem, slipped, window, tau1, surface, cusps=not is_layered(scene))
+    return with_surface(problem, slipped, tau1, surface, cusps=not is_layered(scene))

@@ -29,7 +29,6 @@ from comparisons.models.level import Level
 from comparisons.models.operators import patches_of
 from comparisons.models.problem import Problem
 from comparisons.models.readings import ends_of, largest_tau1, left_out_at_ends
-from comparisons.models.window import Window
 
 # Pitches from an end of contact where the surface's stress is looked at too: tension, traction and
 # slip together are largest between the last nodes
@@ -140,16 +139,14 @@ def last_visit(path: tuple[float, ...]) -> int | None:
     return next((k for k in reversed(range(len(path) - 1)) if path[k] == path[-1]), None)
 
 
-def half_plane_slip(
-    problem: Problem, level: Level, window: Window | None, increments: int
-) -> SlippedLevel:
+def half_plane_slip(problem: Problem, level: Level, increments: int) -> SlippedLevel:
     """Of two half-planes on the pressure elements of a level."""
     grid, hardness = level.grid, problem.constraints().hardness
     gap = grid.hat_integrals(problem.gap, problem.knots)
     bodies = problem.modulus, problem.dundurs_beta, problem.largest_friction, hardness
     pair = half_planes(grid, gap, *bodies)
     slipped = slipped_level(problem, grid, pair, increments)
-    if window is None:
+    if problem.window is None:
         return slipped
 
     def dragged(number: int) -> Beside:
@@ -163,14 +160,13 @@ def half_plane_slip(
         return friction_stress_at(grid.x, pressure, *top).normal.plus(1.0, dragged(number)(*top))
 
     pressure = slipped.states[-1].normal.pressure
-    tau1 = largest_tau1(problem, grid, pressure, 0.0, window, dragged(-1))
-    return with_surface(problem, slipped, window, tau1, surface)
+    tau1 = largest_tau1(problem, grid, pressure, 0.0, problem.window, dragged(-1))
+    return with_surface(problem, slipped, tau1, surface)
 
 
 def with_surface(
     problem: Problem,
     slipped: SlippedLevel,
-    window: Window,
     tau1: Extremum,
     stress: Callable[[int, np.ndarray], StressState],
     cusps: bool = True,
@@ -185,7 +181,7 @@ def with_surface(
     curves = (patch.ends for patch in ends_of(problem, grid, last).patches)
     edges = np.concatenate([patches_of(grid, last).ravel(), *curves])
     near = (edges[:, None] + grid.pitch * BESIDE_AN_END).ravel()
-    x = np.unique(np.concatenate([window.x, grid.x, near]))
+    x = np.unique(np.concatenate([problem.window.x, grid.x, near]))
 
     def surface(number: int) -> StressState:
         state, loaded = slipped.states[number], stress(number, x)

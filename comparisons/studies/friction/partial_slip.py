@@ -56,7 +56,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     models, figures, series, said = {}, [], [], []
     for name, solver in solvers(solved).items():
         tasks.callback(f"partial slip: {name.replace('_', ' ')}")
-        load = partial(solver, problem, window=solved.window)
+        load = partial(solver, problem)
         model = models[name] = _loaded(case.runs[name], load, slip.increments)
         settled = all(s.converged for level in model.levels for s in level.states)
         said.append(Statement(CONVERGED, "yes" if settled else "no", name, case.at))

@@ -11,7 +11,6 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from comparisons.drawing.blocks import Names
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import WHY_NOT
-from comparisons.models.window import window_of
 from comparisons.studies import quiescent_zone as q
 
 Z = np.linspace(0.0, 1.0, 101) ** 2
@@ -81,11 +80,11 @@ def test_mean_shear_of_the_sliding_smooth_contact(columns):
     hertz = HertzContact(1e-3, 1e9, 0.5 * np.pi * 1e6, 1e-2, 1e11)
     window = SimpleNamespace(x=np.linspace(-1.37e-3, 1.5e-3, columns))
     tau1 = hertz_stress(hertz, window.x, np.zeros((1, 1)), 0.2).tau1
-    smooth = SimpleNamespace(hertz=hertz)
-    mean = q.mean_shear(smooth, window, tau1)
+    smooth = SimpleNamespace(hertz=hertz, window=window)
+    mean = q.mean_shear(smooth, tau1)
     assert mean == pytest.approx(0.2e9, rel=0.1 / columns)
     cut = np.where(np.abs(window.x) < 0.3e-3, np.nan, tau1)  # above a rough boundary
-    assert q.mean_shear(smooth, window, cut) == pytest.approx(0.2e9, rel=0.1 / columns)
+    assert q.mean_shear(smooth, cut) == pytest.approx(0.2e9, rel=0.1 / columns)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +94,7 @@ def test_friction_alone_bridges_a_smooth_body(friction, status):
     hertz = HertzContact(1.0, 1.0, 0.5 * np.pi, 1.0, 1.0)
     window = SimpleNamespace(x=np.linspace(-1.2, 1.2, 961))
     tau1 = hertz_stress(hertz, window.x, Z[:, None], friction).tau1
-    shear = q.mean_shear(SimpleNamespace(hertz=hertz), window, tau1)
+    shear = q.mean_shear(SimpleNamespace(hertz=hertz, window=window), tau1)
     assert q.state_of(q.shear_dip(Z, shear, 0.5)) == status
 
 
@@ -128,9 +127,8 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
     stated = q.zones_of(wavy.findings[q.NAME])[0].figures
     other = WAVY | {"stress": {"half_range": half_range, "depth": depth, "points": points}}
     posed = problem(other)
-    window = window_of(posed)
     level = half_plane_at(posed, 0.5 * wavy.runs["half_plane"].finest.grid.pitch, fields=True)
-    zone = q.zone_of(posed, level, window)
+    zone = q.zone_of(posed, level)
     a = posed.hertz.half_width
     for name in q.QUANTITIES:
         value, place = stated[name].value, "depth" in name or name in ("start", "stop")
@@ -144,7 +142,7 @@ def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
     ratio = q.zones_of(wavy.findings[q.NAME])[0].figures["ratio"]
     size = ratio.numerical * ratio.scale
     case = wavy.solved.case(0.0)
-    posed = case, case.runs["half_plane"], wavy.window
+    posed = case, case.runs["half_plane"]
     for off, state in ((0.5, q.UNCLEAR), (3.0, q.QUIESCENT)):
         monkeypatch.setattr(q, "QUIET", ratio.value + off * size)
         assert q.zone_figures(*posed)[1] == state

@@ -15,7 +15,6 @@ from scenes import QUICK, problem
 from analytic.exact.hertz import hertz_stress
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.answers import answers_named
 from comparisons.studies.answers.meshes import _write_faces
@@ -82,7 +81,7 @@ def exact(mesh, hertz, friction=0.0):
 
 def read(section, **changes):
     posed = problem(QUICK | changes | {"answers": {"other": section}})
-    return read_answers(posed, window_of(posed))["other"][-1]
+    return read_answers(posed)["other"][-1]
 
 
 def grid_of(points, triangles):
