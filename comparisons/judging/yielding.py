@@ -130,13 +130,10 @@ class FlowAssessment:
         scene stands for its flow: a sentence without its full stop, empty if nothing."""
         if self.exceeded is None:
             return ""
-        shear = with_unit(self.worst.value, "Pa", 2)
-        said = f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the"
-        if self.exceeded == self.ideal_strength:
-            strength = with_unit(self.ideal_strength, "Pa", 2)
-            return f"{said} ideal strength of a crystal, G/2π = {strength}"
-        flow = with_unit(self.yield_in_shear, "Pa", 2)
-        return f"{said} shear yield stress, Y/√3 = {flow}"
+        shear, limit = (with_unit(size, "Pa", 2) for size in (self.worst.value, self.exceeded))
+        crystal, body = "ideal strength of a crystal, G/2π", "shear yield stress, Y/√3"
+        which = crystal if self.exceeded == self.ideal_strength else body
+        return f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the {which} = {limit}"
 
     @property
     def exceeded(self) -> float | None:

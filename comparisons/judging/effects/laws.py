@@ -17,6 +17,7 @@ import math
 import operator
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -30,7 +31,6 @@ from comparisons.scenes.materials import RUBBER, kinds_of, measured_solids, scal
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 
-BODIES = ("body", "roller", "coating")
 COVERED = 2.0  # standard errors
 MOVED = {"l": 5.0, "m": 3.0}  # by these times the shear modulus
 NOT_STATED = 0.1  # standard error of a constant whose source has none: as of those that have one
@@ -42,12 +42,9 @@ OF_THE_PEAK = 0.3  # largest tau1 below a smooth contact, of its peak pressure
 FLAT = 0.05  # a triangle's height over its length, below which the plane is taken along it alone
 
 
-Point = tuple[float, float]  # l/mu, m/mu
-
-
-def point_of(law: Law, material: Material) -> Point:
-    ell, m, _ = third_order(law, material)
-    return ell / material.shear_modulus, m / material.shear_modulus
+def point_of(law: Law, material: Material) -> np.ndarray:
+    """(2,) l/mu, m/mu."""
+    return np.array(third_order(law, material)[:2]) / material.shear_modulus
 
 
 @dataclass(frozen=True)
@@ -55,16 +52,32 @@ class OpenLaw:
     """What is not known of the law of one body, or of both where they are of one solid."""
 
     material: Material  # with the law that the whole has
-    laws: tuple[Law, ...]  # of the solids that may be meant, with the body's own moduli
-    named_probes: tuple[tuple[str, Law], ...]  # those of them that the whole is solved with
+    solids: tuple[tuple[str, Law], ...]  # that may be meant, with the body's own moduli
     # of measured constants, which the probes move one by one: standard errors over the moves
     shares: tuple[float, ...] = ()
     solid: str | None = None  # that the scene names
-    bodies: tuple[str, ...] = ()  # of BODIES
+    bodies: tuple[str, ...] = ()
 
     @property
+    def laws(self) -> tuple[Law, ...]:
+        return tuple(law for _, law in self.solids)
+
+    @cached_property
     def probes(self) -> dict[str, Law]:
-        return dict(self.named_probes)
+        """The two laws that span the largest triangle with the body's own, or the only one: the
+        whole is solved with these."""
+        laws = {name: law for name, law in self.solids if law != self.material.law}
+
+        def area(pair: tuple[str, ...]) -> float:
+            one, other = (self._move(laws[name]) for name in pair)
+            return abs(float(one[0] * other[1] - one[1] * other[0]))
+
+        chosen = max(combinations(laws, 2), key=area, default=tuple(laws))
+        return {name: laws[name] for name in chosen}
+
+    def _move(self, law: Law) -> np.ndarray:
+        """(2,) from the body's own law to another."""
+        return point_of(law, self.material) - point_of(self.material.law, self.material)
 
     @property
     def is_scatter(self) -> bool:
@@ -92,11 +105,9 @@ class OpenLaw:
 
     def range(self, changes: Mapping[str, float]) -> tuple[float, float]:
         """The least and the largest change that a solid makes, by those of the probes."""
-        origin = np.array(point_of(self.material.law, self.material))
-        moves = [point_of(law, self.material) - origin for law in self.probes.values()]
-        slopes = np.linalg.lstsq(np.array(moves), np.array(list(changes.values())), rcond=FLAT)[0]
-        others = [(point_of(law, self.material) - origin) @ slopes for law in self.laws]
-        every = [*changes.values(), *map(float, others)]
+        moves = np.array([self._move(law) for law in self.probes.values()])
+        slopes = np.linalg.lstsq(moves, np.array(list(changes.values())), rcond=FLAT)[0]
+        every = [*changes.values(), *(float(self._move(law) @ slopes) for law in self.laws)]
         return min(every), max(every)
 
 
@@ -104,10 +115,8 @@ def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
     """Those of a scene's elastic bodies; bodies of one solid vary together, as do those of equal
     constants that name none."""
     bodies: dict[OpenLaw, list[str]] = {}
-    for name in BODIES:
-        section = getattr(scene, name)
-        elastic = section is not None and section.material is not None
-        if elastic and (law := _open_law(section)) is not None:
+    for name, section in scene.elastic_sections.items():
+        if (law := _open_law(section)) is not None:
             bodies.setdefault(replace(law, solid=section.solid), []).append(name)
     return tuple(replace(law, bodies=tuple(names)) for law, names in bodies.items())
 
@@ -123,7 +132,7 @@ def _open_law(section: ElasticSection) -> OpenLaw | None:
     else:
         measured = measured_solids(*kinds)
         laws = {solid.name: scaled_law(solid, material) for solid in measured}
-    return OpenLaw(material, tuple(laws.values()), _probes(laws, material))
+    return OpenLaw(material, tuple(laws.items()))
 
 
 def _scattered(material: Material) -> OpenLaw:
@@ -137,20 +146,7 @@ def _scattered(material: Material) -> OpenLaw:
         step[place] = times * material.shear_modulus
         moved[f"{name} moved"] = Law("murnaghan", tuple(constants + step))
         shares.append(float(errors[place] / step[place]))
-    return OpenLaw(material, tuple(moved.values()), tuple(moved.items()), tuple(shares))
-
-
-def _probes(laws: Mapping[str, Law], material: Material) -> tuple[tuple[str, Law], ...]:
-    """The two that span the largest triangle with the body's own, or the only one."""
-    laws = {name: law for name, law in laws.items() if law != material.law}
-    origin = np.array(point_of(material.law, material))
-
-    def area(pair: tuple[str, ...]) -> float:
-        one, other = (point_of(laws[name], material) - origin for name in pair)
-        return abs(float(one[0] * other[1] - one[1] * other[0]))
-
-    chosen = max(combinations(laws, 2), key=area, default=tuple(laws))
-    return tuple((name, laws[name]) for name in chosen)
+    return OpenLaw(material, tuple(moved.items()), tuple(shares))
 
 
 @dataclass(frozen=True)
@@ -185,10 +181,9 @@ def trust(problem: Problem, whole: Level) -> str | None:
     peak, stress = int(np.argmax(whole.solution.pressure)), whole.stress
     pressure = float(whole.solution.pressure[peak])
     tau1 = OF_THE_PEAK * pressure if stress is None else stress.extremes["tau1"].value
-    for name in BODIES:
-        section = getattr(problem.scene, name)
-        material = section and section.material
-        if material is None or material.law.murnaghan is None:
+    for name, section in problem.scene.elastic_sections.items():
+        material = section.material
+        if material.law.murnaghan is None:
             continue
         nu = material.poissons_ratio
         squeezed = pressure * (1.0 + nu) * (1.0 - 2.0 * nu) / material.youngs_modulus

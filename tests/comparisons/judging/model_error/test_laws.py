@@ -55,7 +55,7 @@ def test_the_plane_through_three_laws_holds_the_others(solved_with):
         low, high = law.range(changes)
         assert low <= min(changes.values()) and max(changes.values()) <= high
         for other in (others[0], others[-1]):
-            one = replace(law, laws=(other,), named_probes=law.named_probes)
+            one = replace(law, solids=(*law.probes.items(), ("other", other)))
             ends = one.range(changes)  # the probes and this one
             change = solved_with(other)[name] / linear[name] - 1.0
             slack = close * (high - low)
