@@ -62,26 +62,29 @@ class Uncertainty:
         return reduce(add, self.parts.values(), 0.0)
 
 
-def by_levels(
-    values: Sequence[float],
-    order: float,
-    scale: float = 1.0,
-    resolution: float = 0.0,
-    iteration: float = 0.0,
-    repeated: tuple[float, float] = (0.0, 0.0),
-    least: float = 0.0,
-) -> Uncertainty:
-    """Of a figure by its values on the levels, coarse to fine, over the scale.
+@dataclass(frozen=True)
+class Reading:
+    """How a quantity is read: what is known of its figure beside the values on the levels."""
 
-    order       formal order of its convergence
-    scale       what the uncertainty is over, in the figure's unit
-    resolution  how finely it is read, in its unit
-    iteration   by what is left of the contact conditions, over the scale
-    repeated    by the far boundary and by the increments of flow, in its unit
-    least       of the discretisation, over the scale"""
-    known = grid_convergence(values, order, resolution)
-    domain, increments = (size / scale for size in repeated)
-    parts = {"iteration": iteration, "discretisation": max(known.uncertainty / scale, least)}
+    order: float  # formal, of its convergence
+    # [SI] of the figure, or what a difference is over; all else is relative to it
+    scale: float = 1.0
+    resolution: float = 0.0  # how finely it is read
+    iteration: float = 0.0  # what is left of the contact conditions
+    least: float = 0.0  # of what discretisation leaves
+    tolerance: float | None = None  # of what is judged
+    place: tuple[float, ...] | None = None
+
+
+def by_levels(
+    values: Sequence[float], reading: Reading, repeated: tuple[float, float], unit: float
+) -> Uncertainty:
+    """Of a figure by its values on the levels, coarse to fine, and by what far boundary and
+    increments of flow leave of it; a `unit` of these is the scale."""
+    known = grid_convergence(values, reading.order, reading.resolution * unit)
+    domain, increments = (size / unit for size in repeated)
+    left = max(known.uncertainty / unit, reading.least)
+    parts = {"iteration": reading.iteration, "discretisation": left}
     return Uncertainty(parts | {"domain": domain, "increments": increments}, known)
 
 

@@ -5,7 +5,6 @@ the uncertainty that levels, the far boundary, increments of flow and iteration 
 is a figure of its own: what the pressure elements leave out is in both models."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import zip_longest
 
@@ -16,6 +15,7 @@ from comparisons.figures.convergence import LOWEST_ORDER
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import NORMS, QUANTITIES
 from comparisons.figures.uncertainty import (
+    Reading,
     by_levels,
     far_boundary,
     iteration,
@@ -30,20 +30,6 @@ CONTACT, COMPARISON = "contact", "comparison"  # studies of a model by itself, a
 UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
 AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
-
-
-@dataclass(frozen=True)
-class Reading:
-    """How a quantity is read: what is known of its figure beside the values on the levels."""
-
-    order: float  # formal, of its convergence
-    # [SI] of the figure, or what a difference is over; all else is relative to it
-    scale: float = 1.0
-    resolution: float = 0.0  # how finely it is read
-    iteration: float = 0.0  # what is left of the contact conditions
-    least: float = 0.0  # of what discretisation leaves
-    tolerance: float | None = None  # of what is judged
-    place: tuple[float, ...] | None = None
 
 
 def judged_by(
@@ -76,15 +62,7 @@ def judged_by(
             at=at,
             against=against,
             scale=reading.scale,
-            uncertainty=by_levels(
-                values,
-                reading.order,
-                scale=unit,
-                resolution=reading.resolution * unit,
-                iteration=reading.iteration,
-                repeated=repeated[name],
-                least=reading.least,
-            ),
+            uncertainty=by_levels(values, reading, repeated[name], unit),
             bounds=(-reading.tolerance, reading.tolerance) if reading.tolerance else None,
             place=reading.place,
             levels=values,

@@ -16,9 +16,9 @@ from comparisons.drawing.blocks import Block, Note, TextTable
 from comparisons.figures.figure import Figure, Figures, Findings
 from comparisons.figures.quantity import LABELS, MODELS, Quantity
 from comparisons.figures.quantity import QUANTITIES as COMPARED
-from comparisons.figures.uncertainty import iteration
+from comparisons.figures.uncertainty import Reading, iteration
 from comparisons.judging import contact
-from comparisons.judging.rule import Reading, judged_by
+from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection

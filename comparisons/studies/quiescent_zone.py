@@ -37,8 +37,8 @@ from scipy.interpolate import CubicSpline
 from comparisons.common.numbers import plain, significant
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import LABELS, Quantity
-from comparisons.figures.uncertainty import iteration
-from comparisons.judging.rule import Reading, judged_by
+from comparisons.figures.uncertainty import Reading, iteration
+from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Case, Run, Solved, Study
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem

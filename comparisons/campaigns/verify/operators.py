@@ -4,6 +4,7 @@ rigid cylinders on the analytic layer. Each is solved on three grids, judged as 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
@@ -29,10 +30,11 @@ from comparisons.campaigns.verify.scenes import (
     RESOLUTIONS,
     spread,
 )
-from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import QUANTITIES
-from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, by_levels, length_resolution
+from comparisons.figures.uncertainty import Reading, iteration, length_resolution
 from comparisons.judging import contact
+from comparisons.judging.rule import judged_by
+from comparisons.models.level import ModelRun
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge
@@ -81,26 +83,22 @@ def operator_cases(
 
 
 def operator_figures(case: OperatorContact, elements: float) -> CaseFigures:
-    levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
-    history = [_values(case, *level) for level in levels]
+    levels = tuple(_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1))
     grid, solution = levels[-1]
-    iteration = PRESSURE_PER_RESIDUAL * solution.residuals.worst
-    figures = []
-    for quantity, exact in case.exact.items():
-        values = tuple(level[quantity] for level in history)
-        order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
-        length = quantity == "contact_length"
-        resolution = length_resolution(grid.pitch, case.patches) if length else 0.0
-        scale = abs(values[-1])
-        figure = Figure(
-            *(contact.NAME, quantity, case.model, values[-1]),
-            scale=scale,
-            uncertainty=by_levels(values, order, scale, resolution, iteration),
-            levels=values,
-        )
-        converged = all(solution.converged for _, solution in levels)
-        figures += compared(figure, exact, case.source, case.kind, converged)
-    return tuple(figures)
+
+    def read(level: tuple[HatGrid, ContactSolution]) -> dict[str, float]:
+        values = _values(case, *level)
+        return {name: values[name] for name in case.exact}
+
+    def how(name: str, value: float) -> Reading:
+        order = FORMAL_ORDERS.get(name) or QUANTITIES[name].formal_order
+        edges = length_resolution(grid.pitch, case.patches) if name == "contact_length" else 0.0
+        return Reading(order, abs(value), edges / abs(value), iteration(solution))
+
+    how_solved = case.source, case.kind, all(solution.converged for _, solution in levels)
+    figures = judged_by(contact.NAME, [ModelRun(case.model, levels)], read, how, {})
+    pairs = (compared(f, case.exact[name], *how_solved) for name, f in figures.items())
+    return tuple(chain.from_iterable(pairs))
 
 
 def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSolution]:

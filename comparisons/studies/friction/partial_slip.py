@@ -13,8 +13,8 @@ import numpy as np
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Column, Figure, Findings, Series, Statement
 from comparisons.figures.quantity import Quantity
-from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, length_resolution
-from comparisons.judging.rule import Reading, judged_by
+from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, Reading, length_resolution
+from comparisons.judging.rule import judged_by
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved
 from comparisons.models.level import ModelRun
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE

@@ -13,8 +13,8 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.figure import Figure, Findings, Part, Statement, figures_of
 from comparisons.figures.quantity import MODELS, Quantity
-from comparisons.figures.uncertainty import Uncertainty, iteration, peak_resolution
-from comparisons.judging.rule import Reading, judged_by
+from comparisons.figures.uncertainty import Reading, Uncertainty, iteration, peak_resolution
+from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Case, Solved
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
