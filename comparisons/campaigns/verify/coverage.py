@@ -135,7 +135,7 @@ class Pair:
             "levels": self.figure.levels,
             "exact": self.exact,
             "scale": self.figure.scale,
-            "uncertainty": {name: stated.parts[name] for name in PARTS} | {"total": stated.total},
+            "uncertainty": {"total": stated.total} | {k: stated.parts.get(k, 0.0) for k in PARTS},
             "converged": self.converged,
             "table": self.table,
             "error": self.error,

@@ -231,17 +231,18 @@ def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     problem = problem_of(asked, surface_of(asked, scene.trace), levels=LEVELS)
     (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
-    solved = solve(posed, None) if scene.half_plane else refined(posed, Tasks())
+    outcome = solve(posed, None) if scene.half_plane else None
+    solved = outcome.solved if outcome else refined(posed, Tasks())
     figures = Figures(contact.solve(solved, {}, None).figures)
     runs = solved.runs.values()
     converged = all(level.solution.converged for run in runs for level in run.levels)
     common = scene.source, scene.kind, converged
     for quantity, exact in scene.exact.items():
         yield from compared(figures.one(source=model, quantity=quantity), exact, *common)
-    if scene.half_plane:
+    if outcome:
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
-            error = solved.figures.one(against=WHOLE, quantity=quantity, friction=friction)
+            error = outcome.figures.one(against=WHOLE, quantity=quantity, friction=friction)
             yield from compared(_by_itself(error), half_plane[quantity] / exact - 1.0, *common)
     if scene.pressure is not None:
         curves = ((level.grid.x, level.solution.pressure) for level in solved.runs[model].levels)
