@@ -165,11 +165,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     selection = before[MODEL_ERROR].data.selection if MODEL_ERROR in before else None
     if selection is not None and FLOW in selection.whole | selection.found:
         flow = replace(flow, flow="idle" if FLOW in selection.found else "plastic")
-    of_scene = {
-        "yield_stress": flow.yield_stress,
-        "hardness": flow.hardness,
-        "ideal_strength": flow.ideal_strength,
-    }
+    known = "yield_stress", "hardness", "ideal_strength"
+    of_scene = {name: getattr(flow, name) for name in known}
     profile = solved.problem.surface.profile
     if flow.hardness is not None and profile is not None:
         # Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319; Mikic 1974, Int. J. Heat Mass

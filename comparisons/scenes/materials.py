@@ -227,14 +227,6 @@ def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[f
     return None
 
 
-def kinds_of(solid: str | None, youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
-    """The classes that a body may be of: that of the solid it is named after, else those of solids
-    with about its constants."""
-    if solid is not None:
-        return (solids()[solid].kind,)
-    return kinds_like(youngs_modulus, poissons_ratio)
-
-
 def scaled_law(solid: Solid, body: Material) -> Law:
     """The solid's third-order constants and errors, for a body with another shear modulus."""
     factor = body.shear_modulus / solid.material.shear_modulus

@@ -39,7 +39,7 @@ from comparisons.scenes.fields import (
     allowed,
 )
 from comparisons.scenes.hardening import HardeningField
-from comparisons.scenes.materials import ELASTIC, Solid, SolidName, solid_named, solids
+from comparisons.scenes.materials import ELASTIC, Solid, SolidName, kinds_like, solid_named, solids
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
@@ -121,6 +121,14 @@ class ElasticSection(SolidSection):
             yield "murnaghan", f"is missing; allowed is {allowed(type(self), 'murnaghan')}"
         if self.law != "murnaghan" and self.murnaghan is not None:
             yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The classes of solids that an elastic body may be of: that of the solid it is named
+        after, else those of solids with about its constants."""
+        if self.solid is not None:
+            return (solids()[self.solid].kind,)
+        return kinds_like(self.youngs_modulus, self.poissons_ratio)
 
     @property
     def measured_law(self) -> Law | None:

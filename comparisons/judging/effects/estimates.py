@@ -23,7 +23,7 @@ from comparisons.figures.quantity import QUANTITIES
 from comparisons.judging.coupling import Coupling
 from comparisons.judging.effects.laws import OF_THE_PEAK, open_laws
 from comparisons.models.problem import TABOR, Problem
-from comparisons.scenes.materials import kinds_of, typical_range
+from comparisons.scenes.materials import typical_range
 from comparisons.scenes.sections import BodySection
 
 Sizes = dict[str, float]
@@ -311,13 +311,11 @@ def typical_shears(body: BodySection) -> tuple[float, float] | None:
     class where only that is known, None where nothing is, or of a rubber."""
     if body.youngs_modulus <= STIFF:
         return None
-    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
-    known = typical_range("yield_stress", body.solid, kinds)
+    known = typical_range("yield_stress", body.solid, body.kinds)
     return known and (0.5 * known[0], 0.5 * known[1])
 
 
 def flow_of(body: BodySection, low: float, high: float) -> str:
     """At which shears [Pa] its solid typically flows, as a clause."""
-    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
     span = " to ".join(dict.fromkeys(with_unit(end, "Pa", 2) for end in (low, high)))
-    return f"{body.solid or ' or '.join(kinds)} typically flows at a shear of {span}"
+    return f"{body.solid or ' or '.join(body.kinds)} typically flows at a shear of {span}"

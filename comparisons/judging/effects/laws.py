@@ -27,7 +27,7 @@ from analytic.material.third_order import is_elliptic, peak_change, third_order
 from comparisons.common.numbers import percent, with_unit
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-from comparisons.scenes.materials import RUBBER, kinds_of, measured_solids, scaled_law
+from comparisons.scenes.materials import RUBBER, measured_solids, scaled_law
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.sections import ElasticSection
 
@@ -126,11 +126,10 @@ def _open_law(section: ElasticSection) -> OpenLaw | None:
     material = section.material
     if section.law is not None:
         return _scattered(material) if section.measured_law is not None else None
-    kinds = kinds_of(section.solid, section.youngs_modulus, section.poissons_ratio)
-    if RUBBER in kinds or (not kinds and material.youngs_modulus < SOFT):
+    if RUBBER in section.kinds or (not section.kinds and material.youngs_modulus < SOFT):
         laws = {"neo-Hookean rubber": Law(), "rubber by Hencky's law": Law("hencky")}
     else:
-        measured = measured_solids(*kinds)
+        measured = measured_solids(*section.kinds)
         laws = {solid.name: scaled_law(solid, material) for solid in measured}
     return OpenLaw(material, tuple(laws.items()))
 

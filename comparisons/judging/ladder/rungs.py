@@ -60,7 +60,7 @@ def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> f
 
 
 def words_of(held: frozenset[str]) -> str:
-    where = "half-plane on the deformed surface" if "finite_strain" in held else "half-plane"
+    where = "half-plane on the deformed surface" if FINITE in held else "half-plane"
     beside = ", ".join(words for name, words in WORDS.items() if name in held)
     return f"{where} with {beside}" if beside else where
 
@@ -96,7 +96,7 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
     half-planes with some of the effects, where nothing cheaper holds, and the same effects in
     finite elements are not refuted."""
     made, effects = list(_solved(solved, budget)), budget.selection.whole
-    flows, problem = bool(nothing_suffices(budget, flow)), solved.problem
+    flows, problem = bool(flow.beyond_doubt), solved.problem  # and no model of the run does
     linear = () if flows else carried(problem, effects, flow)
     refuted = any(rung.verdict == "fails" for rung in made if rung.effects == linear)
     if refuted or why_no_stresses(problem) is not None:
@@ -111,11 +111,6 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
             errors = (e for one in budget.solutions for e in _beside(one, runs))
             made.append(_rung(budget, solved, name, held, words_of(held), took, errors))
     return sorted(made, key=lambda rung: rung.place)
-
-
-def nothing_suffices(budget: ErrorBudget, flow: FlowAssessment) -> str:
-    """That the body flows beyond doubt, and no model of the run does."""
-    return "" if FLOW in budget.selection.whole else flow.beyond_doubt
 
 
 def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:

@@ -16,7 +16,6 @@ from comparisons.judging.ladder.rungs import (
     Rung,
     announce_operators,
     may_suffice,
-    nothing_suffices,
     rungs,
 )
 from comparisons.judging.model_error.error_budget import effects_of_run
@@ -49,7 +48,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         "peak_memory": Column(tuple(rung.memory for rung in made), "byte"),
     }
     series = (Series(show.RUNGS, columns, is_account=True),)
-    said = _statements(made, before[MODEL_ERROR], nothing_suffices(budget, flow))
+    said = _statements(made, before[MODEL_ERROR], flow.beyond_doubt)
     return Findings(figures, series, tuple(said))
 
 

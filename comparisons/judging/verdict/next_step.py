@@ -26,7 +26,6 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import TABOR
 from comparisons.scenes.materials import (
     kinds_like,
-    kinds_of,
     measured_solids,
     solids,
     typical_range,
@@ -217,13 +216,12 @@ def _typical_stress(run: Run) -> tuple[str, str, bool]:
     if known is not None:
         stress = _in_mpa(known.value)
         return stress, f"; {stress} is typical, put in yours", True
-    kinds = kinds_of(body.solid, body.youngs_modulus, body.poissons_ratio)
-    if (typical := typical_range("yield_stress", None, kinds)) is None:
+    if (typical := typical_range("yield_stress", None, body.kinds)) is None:
         return _in_mpa(yielding.STIFF), "", False
     low, high = (with_unit(end, "Pa", 2) for end in typical)
     return (
         _in_mpa(sum(typical) / 2.0),
-        f"; typical of {' or '.join(kinds)} is {low} to {high}",
+        f"; typical of {' or '.join(body.kinds)} is {low} to {high}",
         False,
     )
 
