@@ -18,7 +18,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEADY, WAVY, resolved
+from scenes import PROJECT, STEADY, WAVY, resolved
 
 import meshes.build
 from analytic.contact.patches import contact_patches
@@ -26,6 +26,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, StressState
+from comparisons.cli import main
 from comparisons.common import tasks
 from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
@@ -48,7 +49,6 @@ page.attempted = lambda what, make: make()
 # Tests count and replace what is done in their own process; those of several processes say so.
 tasks.WORTH_A_FORK = tasks.WORTH_A_START = math.inf
 
-PROJECT = Path(__file__).resolve().parents[2]
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
 
@@ -200,6 +200,27 @@ def undrawn(no_pictures: Callable[[Run], dict]) -> Iterator[None]:
     """The reports of a whole module without pictures."""
     with patch("comparisons.output.page.page.draw", no_pictures):
         yield
+
+
+@pytest.fixture
+def complaint(tmp_path: Path, capsys: pytest.CaptureFixture) -> Callable[..., str]:
+    """`complaint(*arguments)`: the one line that the command ends with, after status 2 and without
+    a trace of a result in the test's folder."""
+
+    def held() -> dict[Path, bytes | bool]:
+        return {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")}
+
+    def line(*arguments: object) -> str:
+        before = held()
+        status = main(list(map(str, arguments)))
+        out, err = capsys.readouterr()
+        assert status == 2, err
+        assert out == ""
+        assert err.startswith("crosscheck: ") and err.endswith("\n") and err.count("\n") == 1
+        assert held() == before
+        return err.strip()
+
+    return line
 
 
 @pytest.fixture(scope="session")

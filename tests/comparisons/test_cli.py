@@ -8,7 +8,7 @@ import types
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT, python
+from scenes import PROJECT, STEADY, as_toml, python
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
@@ -236,12 +236,6 @@ def printing_to(output, arguments: list[str]) -> subprocess.CompletedProcess:
     )
 
 
-SMALL = """
-roller = {radius = 0.01, rigid = true}
-body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
-load = {hertz_peak_pressure = 1e9}
-resolution = {pitch = "8 um"}
-"""
 HALF_PLANE = ["run", "small.toml", "--models", "half-plane", "--out"]
 
 
@@ -249,7 +243,7 @@ HALF_PLANE = ["run", "small.toml", "--models", "half-plane", "--out"]
 def test_a_reader_that_goes_away(tmp_path, arguments):
     """`crosscheck … | head -0`: no traceback, and the status a shell expects."""
     if "--out" in arguments:
-        (tmp_path / "small.toml").write_text(SMALL)
+        (tmp_path / "small.toml").write_text(as_toml(STEADY))
         at = arguments.index("--out") + 1
         arguments = [*arguments[:at], str(tmp_path / "out"), *arguments[at:]]
         arguments[1] = str(tmp_path / "small.toml")

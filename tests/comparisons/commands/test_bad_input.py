@@ -6,7 +6,6 @@ import json
 import math
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -46,24 +45,6 @@ def folder(tmp_path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.toml").write_text(toml({}))
     return tmp_path
-
-
-@pytest.fixture
-def complaint(folder, capsys) -> Callable[..., str]:
-    """`complaint(*arguments)`: the one line that the command ends with, after status 2 and without
-    a trace of a result."""
-
-    def line(*arguments: str) -> str:
-        before = {path: path.read_bytes() for path in folder.iterdir()}
-        status = main(list(arguments))
-        out, err = capsys.readouterr()
-        assert status == 2, err
-        assert out == ""
-        assert err.startswith("crosscheck: ") and err.endswith("\n") and err.count("\n") == 1
-        assert {path: path.read_bytes() for path in folder.iterdir()} == before
-        return err.strip()
-
-    return line
 
 
 SINUSOID = {
@@ -260,7 +241,7 @@ def test_what_no_command_can_do_is_refused(folder, complaint, arguments, said):
     assert said in complaint(*arguments)
 
 
-def test_control_characters_of_a_name_are_shown_harmless(complaint):
+def test_control_characters_of_a_name_are_shown_harmless(folder, complaint):
     line = complaint("run", "\x1b[31m.toml")
     assert "\x1b" not in line and r"\x1b[31m.toml" in line
 

@@ -82,9 +82,6 @@ def test_json_of_one_solid_by_another_name(capsys):
     assert entry["bounded_by"] == ["fused silica", "aluminium alloy"]
 
 
-def test_an_unknown_name_is_one_line(capsys):
-    assert main(["materials", "carbn steel"]) == 2
-    captured = capsys.readouterr()
-    assert not captured.out
-    said = 'crosscheck: carbn steel: is no known solid; did you mean "carbon steel"?\n'
-    assert captured.err == said
+def test_an_unknown_name_is_one_line(complaint):
+    said = 'crosscheck: carbn steel: is no known solid; did you mean "carbon steel"?'
+    assert complaint("materials", "carbn steel") == said

@@ -12,7 +12,7 @@ from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
 import pytest
-from scenes import PROJECT, python
+from scenes import PROJECT, STEADY, as_toml, python
 
 from comparisons.cli import app, main
 from comparisons.commands import arguments
@@ -20,12 +20,6 @@ from comparisons.output.result_json import content_of, result_of
 from comparisons.scenes.files import scene_names
 
 pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process
-SCENE = """
-title = "Seen"
-roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
-body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
-load = {per_length = "1 N/um"}
-"""
 COMMAND = """
 import sys
 import comparisons.output.page.page
@@ -66,7 +60,7 @@ def in_pipe(*command: str, folder: Path, **more: str) -> str:
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
-    (tmp_path / "scene.toml").write_text(SCENE)
+    (tmp_path / "scene.toml").write_text(as_toml(STEADY))
     return tmp_path
 
 
@@ -126,13 +120,6 @@ def test_every_command_has_json():
 
 
 MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
-SMALL = """
-roller = {radius = 0.01, rigid = true}
-body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
-load = {hertz_peak_pressure = 1e9}
-resolution = {levels = 2}
-stress = {points = [12, 6]}
-"""
 # The mesher and a process beside, as a run starts them.
 PROGRAM = """
 import numpy as np
@@ -177,7 +164,7 @@ def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
 
 
 def test_a_scene_need_not_be_named_in_utf_8(tmp_path, monkeypatch):
-    (tmp_path / os.fsdecode(b"sc\xe9ne.toml")).write_text(SMALL)
+    (tmp_path / os.fsdecode(b"sc\xe9ne.toml")).write_text(as_toml(STEADY))
     scene, out = os.fsdecode(b"sc\xe9ne.toml"), os.fsdecode(b"r\xe9sultats")
     words = ["-m", "comparisons.cli", "run", scene, "--models", "half-plane"]
     done = python(*words, cwd=tmp_path, PYTHONSAFEPATH="1")
