@@ -16,7 +16,7 @@ from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.ladder.rungs import operator_runs
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LAYERED, Solved, Study
-from comparisons.models.analytic import why_no_stresses
+from comparisons.models.candidates import why_no_stresses
 from comparisons.models.operators import LAYERS, is_layered
 
 

@@ -6,7 +6,7 @@ A model is the half-plane and the effects that it has beside: the LAYERS and the
 is a convolution, and its stresses are those of a half-plane and what the base adds
 (`analytic.layers.stress`)."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
@@ -26,9 +26,7 @@ from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
 from comparisons.models.level import ExpectedCost, Level, StressResult, by_friction, highest
 from comparisons.models.operators import (
-    LAYERS,
     body_operator,
-    is_layered,
     layered_body,
     operator_of,
     patches_of,
@@ -38,12 +36,8 @@ from comparisons.models.operators import (
 from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.readings import beside_hats, field_on
 from comparisons.models.window import Window, search_window
-from comparisons.scenes.scene import Scene
 
-# Effects that operators and gaps can have; what is quadratic on the deformed surface beside.
-CARRIED = LAYERS | {COUPLED, "exact_circle"}
 CAP = "cap"  # on the pressure, where the body yields and the scene has no hardness
-THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are worth their waves
 # Of a level with stresses, measured from 5 000 to 160 000 nodes on windows as wide as the contact.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
 # Of a window far wider than the contact: each point of the ring on which pressures are convolved,
@@ -68,25 +62,6 @@ def expected_with(problem: Problem, pitch: float) -> ExpectedCost:
     memory = BYTES_PER_POINT * points + BYTES_PER_SEARCHED * len(searched.x) * len(searched.z)
     seconds = max(cost.seconds, SECONDS_PER_POINT * points)
     return ExpectedCost(cost.unknowns, max(cost.memory, memory), seconds)
-
-
-def carried_linear(scene: Scene, effects: Iterable[str]) -> frozenset[str]:
-    """Which of the whole's effects an operator can have."""
-    if scene.periodic:
-        return frozenset()
-    alone = {"finite_size"} if scene.body.thickness is None else set()
-    return frozenset(set(effects) & CARRIED - alone)
-
-
-def carried_deformed(problem: Problem, effects: Iterable[str]) -> frozenset[str]:
-    """The effects of the whole that the half-plane has on its deformed surface: what is quadratic
-    there is known of half-planes alone. Friction moves these surfaces as it does the whole's."""
-    scene, effects = problem.scene, set(effects)
-    bounded = is_layered(scene) or scene.periodic or scene.body.width is not None
-    if "finite_strain" not in effects or bounded:
-        return frozenset()
-    moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
-    return frozenset(effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else set()))
 
 
 def analytic_level(
@@ -155,14 +130,6 @@ def _pressed(problem: Problem, effects: frozenset[str], grid: HatGrid) -> Contac
     deformed = DeformedContact(grid, *bodies, problem.knots)
     how = grid.weights, problem.constraints()
     return deformed.pressed(lambda gap, start: solve_on(operator, gap, *how, start), solution)
-
-
-def why_no_stresses(problem: Problem) -> str | None:
-    """Why there are no stresses of a layered body, or None."""
-    body = layered_body(problem.scene)
-    if problem.window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
-        return None
-    return "the layer is too thin for the waves of its stresses"
 
 
 @dataclass(frozen=True)

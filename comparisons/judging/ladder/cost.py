@@ -32,7 +32,7 @@ from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
-from comparisons.models.analytic import carried_deformed, carried_linear
+from comparisons.models import candidates
 from comparisons.models.level import Level, flowing_contact
 from comparisons.models.model import Model
 from comparisons.models.problem import Problem
@@ -99,11 +99,9 @@ def methods_of(problem: Problem) -> list[Method]:
     else:
         coarse = {f"{own}, {p}": {"finite_element.element": p} for p in ("P1", "P3")}
         methods += [elements(n, numbers=(0, 1, 2), fields=f) for n, f in coarse.items()]
-    effects = contained(scene)
-    linear, deformed = carried_linear(scene, effects), carried_deformed(problem, effects)
-    if len(scene.load.friction) == 1 or not settings.coupled:
-        held = {f"{plane}, layered": linear, f"{plane}, deformed": deformed}
-        methods += [analytic(n, numbers=(1, 2, 3), effects=of) for n, of in held.items() if of]
+    for one in candidates.CANDIDATES:
+        if held := one.carries(problem, contained(scene), 0.0):
+            methods.append(analytic(f"{plane}, {one.label}", numbers=(1, 2, 3), effects=held))
     return methods
 
 

@@ -23,14 +23,13 @@ from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
-from comparisons.models.analytic import CAP, carried_deformed, carried_linear, why_no_stresses
+from comparisons.models import candidates
+from comparisons.models.candidates import words_of
 from comparisons.models.level import ModelRun
 from comparisons.models.model import Model
-from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.smooth import closed_form
 
-HERTZ, HALF_PLANE, OPERATORS, DEFORMED = "hertz", "half_plane", "operators", "deformed"
-ANALYTIC = HERTZ, HALF_PLANE, OPERATORS, DEFORMED
+HERTZ, HALF_PLANE, OPERATORS = "hertz", "half_plane", "operators"
 OTHER = MODELS[1]  # the finite elements of the scene
 # Finite elements by the dearest effect that they have, from the cheapest on.
 ELEMENTS = {
@@ -38,31 +37,6 @@ ELEMENTS = {
     FINITE: "finite deformation",
     FLOW: "elastic-plastic finite elements",
 }
-ORDER = (*ANALYTIC, *ELEMENTS, WHOLE)  # of rungs
-WORDS = {
-    "finite_size": "layer",
-    "coating": "coating",
-    COUPLED: "coupling",
-    "exact_circle": "exact circle",
-    CAP: f"pressures up to {TABOR:g} Y",
-}
-
-
-def carried(problem: Problem, effects: Iterable[str], flow: FlowAssessment) -> frozenset[str]:
-    """What an operator can carry of the whole's effects, and a cap where the body yields."""
-    scene = problem.scene
-    held = set(carried_linear(scene, effects))
-    yields = scene.body.yield_stress is not None and scene.body.hardness is None
-    over = flow.there("peak_pressure_over_shear_yield")
-    if yields and not scene.periodic and over > TABOR * 3.0**0.5:
-        held.add(CAP)
-    return frozenset(held)
-
-
-def words_of(held: frozenset[str]) -> str:
-    where = "half-plane on the deformed surface" if FINITE in held else "half-plane"
-    beside = ", ".join(words for name, words in WORDS.items() if name in held)
-    return f"{where} with {beside}" if beside else where
 
 
 def may_suffice(errors: Iterable[Figure]) -> bool:
@@ -85,32 +59,34 @@ class Rung:
     def verdict(self) -> str:
         return deciding(self.figures).verdict
 
-    @property
-    def place(self) -> int:
-        """In the order of rungs."""
-        return ORDER.index(self.name if self.name in ORDER else _dearest(self.effects))
-
 
 def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Tasks) -> list[Rung]:
     """Every model, from the cheapest to the whole. The tasks solve what only the ladder asks for:
     half-planes with some of the effects, where nothing cheaper holds, and the same effects in
     finite elements are not refuted."""
     made, effects = list(_solved(solved, budget)), budget.selection.whole
-    flows, problem = bool(flow.beyond_doubt), solved.problem  # and no model of the run does
-    linear = () if flows else carried(problem, effects, flow)
-    refuted = any(rung.verdict == "fails" for rung in made if rung.effects == linear)
-    if refuted or why_no_stresses(problem) is not None:
-        linear = ()
-    deformed = () if flows or FLOW in effects else carried_deformed(problem, effects)
-    for name, held in ((OPERATORS, linear), (DEFORMED, deformed)):
-        if any(rung.verdict == "holds" for rung in made if rung.name in ANALYTIC):
+    every, analytic = candidates.CANDIDATES, [HERTZ, HALF_PLANE]
+    finest = (case.runs[HALF_PLANE].finest.solution.pressure for case in solved.cases)
+    peak = max(float(pressure.max()) for pressure in finest)
+    for candidate in () if flow.beyond_doubt else every:  # and no model of the run does
+        if any(rung.verdict == "holds" for rung in made if rung.name in analytic):
             break
-        runs = operator_runs(solved, held, tasks) if held else None
+        held = candidate.carries(solved.problem, effects, peak)
+        same = [rung for rung in made if rung.effects == held and candidate.has_elements]
+        refuted = any(rung.verdict == "fails" for rung in same)
+        runs = operator_runs(solved, held, tasks) if held and not refuted else None
         if runs is not None:
             took = _took(next(iter(runs.values())))  # what all took together
             errors = (e for one in budget.solutions for e in _beside(one, runs))
-            made.append(_rung(budget, solved, name, held, words_of(held), took, errors))
-    return sorted(made, key=lambda rung: rung.place)
+            named = candidate.name, held, words_of(held)
+            made.append(_rung(budget, solved, *named, took, errors))
+            analytic.append(candidate.name)
+    order = [HERTZ, HALF_PLANE, *(candidate.name for candidate in every), *ELEMENTS, WHOLE]
+
+    def place(rung: Rung) -> int:
+        return order.index(rung.name if rung.name in order else _dearest(rung.effects))
+
+    return sorted(made, key=place)
 
 
 def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:

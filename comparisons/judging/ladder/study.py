@@ -20,18 +20,19 @@ from comparisons.judging.ladder.rungs import (
 )
 from comparisons.judging.model_error.error_budget import effects_of_run
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
-from comparisons.models.analytic import carried_deformed
+from comparisons.models import candidates
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
-    """Announce the half-plane on the deformed surface, once the half-plane is solved, where the
-    effects that this selects deform the bodies: it then waits for no finite elements."""
+    """Announce the candidates that no finite elements refute, once the half-plane is solved, where
+    the effects that this selects ask for them: they then wait for no finite elements."""
     if list(solved.runs) != [HALF_PLANE]:
         return
     whole = effects_of_run(solved, tasks).whole
-    held = carried_deformed(solved.problem, whole)
-    if held and "plastic_flow" not in whole:
-        announce_operators(solved, held, len(solved.problem.pitches), tasks)
+    for candidate in candidates.CANDIDATES:
+        held = candidate.carries(solved.problem, whole, 0.0)
+        if held and not candidate.has_elements:
+            announce_operators(solved, held, len(solved.problem.pitches), tasks)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:

@@ -12,11 +12,8 @@ from analytic.exact.layers import TABLE
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
-from comparisons.judging.ladder.rungs import carried, words_of
-from comparisons.judging.study import Case, Solved
-from comparisons.judging.yielding import flow_assessment
 from comparisons.models.analytic import CAP, analytic_level
-from comparisons.models.level import ModelRun
+from comparisons.models.candidates import CANDIDATES, words_of
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import COUPLED
 from comparisons.models.smooth import closed_form
@@ -26,6 +23,8 @@ CASES = json.loads(TABLE.read_text())["cases"]
 LOAD = {"per_length": 1e6, "friction": 0.3}
 BODIES = {"roller": {"radius": 8e-3, **STEEL}, "body": dict(STEEL), "load": LOAD}
 FIELD = {"stress": {"points": [60, 20]}}
+
+OPERATORS, _ = CANDIDATES
 
 
 def analytic_at(posed, pitch, *effects):
@@ -97,9 +96,8 @@ def test_what_an_operator_carries():
     highest = problem(BODIES).hertz.peak_pressure
     body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
     posed = problem(BODIES | {"body": body})
-    runs = {"half_plane": ModelRun("half_plane", (half_plane_at(posed),))}
-    flow = flow_assessment(Solved(posed, None, (Case(posed, runs),)))
-    held = carried(posed, {"finite_size", COUPLED, "finite_strain"}, flow)
+    peak = float(half_plane_at(posed).solution.pressure.max())
+    held = OPERATORS.carries(posed, frozenset({"finite_size", COUPLED, "finite_strain"}), peak)
     assert held == {"finite_size", COUPLED, CAP}
     assert words_of(held) == "half-plane with layer, coupling, pressures up to 3 Y"
     capped = analytic_at(posed, posed.pitches[0], CAP)

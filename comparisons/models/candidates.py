@@ -1,0 +1,80 @@
+"""The analytic models that a run may judge beside its own: half-planes with some of the effects.
+
+A new one is an entry of CANDIDATES: the ladder then says whether it suffices, `crosscheck cost`
+what it takes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.models.analytic import CAP
+from comparisons.models.operators import LAYERS, is_layered, layered_body
+from comparisons.models.problem import COUPLED, TABOR, Problem
+
+Effects = frozenset[str]
+NONE: Effects = frozenset()
+THINNEST = 1.0 / 40.0  # of the search window's reach: layers whose stresses are worth their waves
+WORDS = {
+    "finite_size": "layer",
+    "coating": "coating",
+    COUPLED: "coupling",
+    "exact_circle": "exact circle",
+    CAP: f"pressures up to {TABOR:g} Y",
+}
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One model."""
+
+    name: str  # source of its figures
+    label: str  # where costs are compared
+    # which of the effects it has in a problem, under the half-plane's largest pressure [Pa]; none
+    # where it cannot be solved, or is the half-plane
+    carries: Callable[[Problem, Effects, float], Effects]
+    # whether finite elements with the same effects solve the same problem
+    has_elements: bool = True
+
+
+def _by_operator(problem: Problem, effects: Effects, peak: float) -> Effects:
+    """What an operator and a gap can have, and a cap where the body yields."""
+    scene, body = problem.scene, problem.scene.body
+    if scene.periodic or why_no_stresses(problem) is not None:
+        return NONE
+    held = effects & (LAYERS | {COUPLED, "exact_circle"})
+    held -= {"finite_size"} if body.thickness is None else NONE
+    yields = body.yield_stress is not None and body.hardness is None
+    return held | {CAP} if yields and peak > TABOR * body.yield_stress else held
+
+
+def _deformed(problem: Problem, effects: Effects, peak: float) -> Effects:
+    """What the half-plane has on its deformed surface: what is quadratic there is known of elastic
+    half-planes alone. Friction moves these surfaces as it does the whole's."""
+    scene = problem.scene
+    bounded = is_layered(scene) or scene.periodic or scene.body.width is not None
+    if "finite_strain" not in effects or "plastic_flow" in effects or bounded:
+        return NONE
+    moves = any(scene.load.friction) and problem.dundurs_beta != 0.0
+    return effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else NONE)
+
+
+CANDIDATES = (
+    Candidate("operators", "layered", _by_operator),
+    Candidate("deformed", "deformed", _deformed, has_elements=False),
+)
+
+
+def words_of(held: Effects) -> str:
+    """A half-plane with effects."""
+    where = "half-plane on the deformed surface" if "finite_strain" in held else "half-plane"
+    beside = ", ".join(words for name, words in WORDS.items() if name in held)
+    return f"{where} with {beside}" if beside else where
+
+
+def why_no_stresses(problem: Problem) -> str | None:
+    """Why there are no stresses of a layered body, or None."""
+    body = layered_body(problem.scene)
+    if problem.window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
+        return None
+    return "the layer is too thin for the waves of its stresses"
