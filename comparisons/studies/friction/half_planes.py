@@ -160,7 +160,7 @@ def half_plane_slip(problem: Problem, level: Level, increments: int) -> SlippedL
         return friction_stress_at(grid.x, pressure, *top).normal.plus(1.0, dragged(number)(*top))
 
     pressure = slipped.states[-1].normal.pressure
-    tau1 = largest_tau1(problem, grid, pressure, 0.0, problem.window, dragged(-1))
+    tau1 = largest_tau1(problem, grid, pressure, 0.0, dragged(-1))
     return with_surface(problem, slipped, tau1, surface)
 
 

@@ -17,7 +17,6 @@ from comparisons.models.level import Level
 from comparisons.models.operators import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.readings import left_out_at_ends
-from comparisons.models.window import Window
 from comparisons.studies.heat.half_space import (
     FARTHEST,
     HeatedContact,
@@ -144,9 +143,7 @@ def _conduction(
     return Conduction(body, velocity, around, float(patches.mean()), reach_of(problem))
 
 
-def finite_element_stress(
-    problem: Problem, level: Level, window: Window, beyond: float = np.inf
-) -> HeatedStress:
+def finite_element_stress(problem: Problem, level: Level, beyond: float = np.inf) -> HeatedStress:
     """Of a level; an unbounded body is held `beyond` this part of its mesh."""
     heat, friction, field = problem.scene.heat, problem.largest_friction, level.mesh_field
     made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
@@ -155,9 +152,9 @@ def finite_element_stress(
     temperature = solved_heat(problem, level)[1]
     thermal, _ = thermal_stress(body, expansion, temperature(body.points))
     elastic = field.on(body)[field.frictions.index(friction)]
-    both, bounds = elastic.plus(thermal.values), (*window.ends, window.z[-1])
+    both, bounds = elastic.plus(thermal.values), (*problem.window.ends, problem.window.z[-1])
     tau1 = maximum(body, both, lambda stress: stress.tau1, bounds)
-    x = surface_places(problem, level, window)
+    x = surface_places(problem, level)
     x = x[np.abs(x) <= field.mesh.spec.half_width]
     along = evaluate_all(body, (both, elastic), x, np.zeros_like(x))
     cold = level.stress.extremes["tau1"]

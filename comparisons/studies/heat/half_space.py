@@ -23,7 +23,7 @@ from comparisons.models.readings import (
     left_out_at_ends,
     stresses_at,
 )
-from comparisons.models.window import Window, search_window
+from comparisons.models.window import search_window
 
 if TYPE_CHECKING:
     from analytic.heat.moving_source import HeatedSurface
@@ -187,24 +187,24 @@ class HeatedStress:
         return {"tau1_heated": (tau1.x, tau1.z)} | tensile
 
 
-def surface_places(problem: Problem, level: Level, window: Window) -> np.ndarray:
+def surface_places(problem: Problem, level: Level) -> np.ndarray:
     """x (n,) [m] of grid, window and ends of contact, and far beyond: where sx may be largest."""
     edges = ends_of_contact(problem, level.grid, level.solution)
     far = np.abs(edges).max() * np.geomspace(1.0, SEEN, PLACES)
-    return np.unique(np.concatenate([window.x, level.grid.x, edges, -far, far]))
+    return np.unique(np.concatenate([problem.window.x, level.grid.x, edges, -far, far]))
 
 
-def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedStress:
+def half_plane_stress(problem: Problem, level: Level) -> HeatedStress:
     """Of the half-plane on a level of its own."""
     friction, grid, solution = problem.largest_friction, level.grid, level.solution
     close = ends_of(problem, grid, solution).at(friction)
-    thermal = _thermal(problem, level, search_window(problem, window))
+    thermal = _thermal(problem, level)
 
     def beside(x: np.ndarray, z: np.ndarray) -> StressState:
         return close(x, z).plus(1.0, thermal(x, z))
 
-    tau1 = largest_tau1(problem, grid, solution.pressure, friction, window, beside)
-    x = surface_places(problem, level, window)
+    tau1 = largest_tau1(problem, grid, solution.pressure, friction, beside)
+    x = surface_places(problem, level)
     elastic = stresses_at(problem, level, (friction,), x, np.zeros_like(x))[friction].sx
     elastic += (1.0, friction) @ left_out_at_ends(problem, grid, solution, x)
     nodes, stress = _thermal_line(problem, level, (x[0], x[-1]), np.zeros(1))
@@ -212,10 +212,9 @@ def half_plane_stress(problem: Problem, level: Level, window: Window) -> HeatedS
     return HeatedStress((tau1, level.stress.extremes["tau1"]), x, sx)
 
 
-def _thermal(
-    problem: Problem, level: Level, window: Window
-) -> Callable[[np.ndarray, np.ndarray], StressState]:
-    """Thermal stresses of x and z [m] in a window, by splines between the nodes of the fluxes."""
+def _thermal(problem: Problem, level: Level) -> Callable[[np.ndarray, np.ndarray], StressState]:
+    """Thermal stresses of x and z [m] in the window, by splines between the nodes of the fluxes."""
+    window = search_window(problem, problem.window)
     x, stress = _thermal_line(problem, level, (window.x[0], window.x[-1]), window.z)
     order = min(3, len(window.z) - 1)
     parts = [RectBivariateSpline(window.z, x, part, kx=order) for part in vars(stress).values()]

@@ -85,7 +85,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     if problem.scene.heat.stresses:
         tasks.callback("thermal stresses")
         solvers = half_plane_stress, meshed.finite_element_stress
-        models = _heated(case, *solvers, solved.window, beyond=0.5)
+        models = _heated(case, *solvers, beyond=0.5)
         stresses = {model.name: model.finest for model in models}
         figures += _figures(case, models)
     contact = next(iter(contacts.values()))
@@ -105,18 +105,17 @@ def _heated(
     case: Case,
     by_half_plane: Callable[..., Heated],
     by_elements: Callable[..., Heated],
-    *posed: object,
     **smaller: float,
 ) -> list[ModelRun]:
-    """What each model finds on its levels, of what is `posed`; finite elements also on the coarsest
-    in a `smaller` block."""
+    """What each model finds on its levels; finite elements also on the coarsest in a `smaller`
+    block."""
     models, solvers = [], dict(zip(MODELS, (by_half_plane, by_elements), strict=True))
     for name, run in case.runs.items():
         solve, check = solvers[name], None
-        levels = tuple(solve(case.problem, level, *posed) for level in run.levels)
+        levels = tuple(solve(case.problem, level) for level in run.levels)
         if solve is by_elements:
             first = run.far_boundary_check or run.levels[0]
-            check = solve(case.problem, first, *posed, **smaller)
+            check = solve(case.problem, first, **smaller)
         models.append(ModelRun(name, levels, check))
     return models
 

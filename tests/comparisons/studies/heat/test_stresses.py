@@ -18,7 +18,6 @@ from scenes import (
 )
 
 from comparisons.models.readings import ends_of_contact, left_out_at_ends, stresses_at
-from comparisons.models.window import window_of
 from comparisons.studies.heat.finite_elements import finite_element_stress, solved_heat
 
 PLAIN = QUICK | {
@@ -45,23 +44,23 @@ COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
 def solved(tables):
     """What `finite_element_stress` takes, on the coarsest level."""
     posed = problem(tables)
-    return posed, finite_elements(posed, fields=True), window_of(posed)
+    return posed, finite_elements(posed, fields=True)
 
 
 def test_a_coating_counts_by_what_it_differs_in():
     """One of the body's own material changes nothing; one that expands twice as much adds what a
     layer that cannot expand along the surface bears, E alpha T / (1 - nu)."""
     plain = finite_element_stress(*solved(PLAIN))
-    posed, *rest = solved(COATED)
-    same = finite_element_stress(posed, *rest)
+    posed, level = solved(COATED)
+    same = finite_element_stress(posed, level)
     for name, value in same.figures.items():
         if "depth" not in name:
             assert value == pytest.approx(plain.figures[name], abs=5e6)  # of 1 GPa
     assert np.all(same.sx[0][same.x > -1e-4] < 0.0)
     other = replace(posed, scene=posed.scene.unchecked({"heat.coating_expansion": 24e-6}))
-    more = finite_element_stress(other, *rest)
+    more = finite_element_stress(other, level)
     added = (more.sx[0] - more.sx[1]) - (same.sx[0] - same.sx[1])
-    temperature = solved_heat(posed, rest[0])[1](np.column_stack([same.x, np.zeros_like(same.x)]))
+    temperature = solved_heat(posed, level)[1](np.column_stack([same.x, np.zeros_like(same.x)]))
     held = -STEEL["youngs_modulus"] * 12e-6 * temperature / (1.0 - STEEL["poissons_ratio"])
     assert np.linalg.norm(added - held) < 0.08 * np.linalg.norm(held)
 
