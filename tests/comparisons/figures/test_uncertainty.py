@@ -7,13 +7,14 @@ import pytest
 
 from comparisons.figures.uncertainty import (
     DOMAIN,
+    Reading,
     difference_of_figures,
     iteration,
     length_resolution,
     peak_resolution,
 )
 from comparisons.judging.comparison import SHOWN, discretisations
-from comparisons.judging.rule import judged, relative_resolution
+from comparisons.judging.rule import judged, judged_by, relative_resolution
 from comparisons.judging.study import Case, Run
 from comparisons.models.level import ModelRun
 
@@ -79,6 +80,21 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
     alone = judged(half_plane, smooth_outcome.problem)["peak_pressure"]
     assert alone.uncertainty.parts["discretisation"] > 1e-6
     assert difference.uncertainty.parts["discretisation"] == 0.0
+
+
+def test_what_either_model_repeats_counts_in_their_difference():
+    """Levels that are numbers: one on a smaller block, the other there and by longer increments."""
+    one = ModelRun("one", (5.0, 4.0), 6.0)
+    other = ModelRun("other", (3.0, 3.5), 3.2, (2.0, 2.6))
+
+    def read(one: float, other: float) -> dict[str, float]:
+        return {"difference": one - other}
+
+    [figure] = judged_by("", (one, other), read, lambda *_: Reading(1.0), {}).values()
+    parts = figure.uncertainty.parts
+    assert (figure.value, figure.against, figure.levels) == (0.5, "other", (2.0, 0.5))
+    assert parts["domain"] == pytest.approx(DOMAIN * (1.0 + 0.2))
+    assert parts["increments"] == pytest.approx(3.0 * 0.4)
 
 
 def test_bounds_of_several_levels_add(smooth_outcome: Run):
