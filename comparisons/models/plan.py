@@ -2,7 +2,7 @@
 
 A skipped step never changes a figure that is asked for."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from comparisons.figures.quantity import MODELS
 from comparisons.models.assumptions import assumptions_of
@@ -10,14 +10,6 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.scene import sections_of
 
 LONGER = (4, 2)  # times as long increments of plastic flow, of their check
-
-
-@dataclass(frozen=True)
-class Skipped:
-    """A step that a run skips, and the reason."""
-
-    step: str
-    because: str
 
 
 @dataclass(frozen=True)
@@ -30,7 +22,7 @@ class Plan:
     domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
     increments_check: bool  # repeat that level with longer increments of plastic flow
     assumptions: tuple[str, ...]  # of the models of this run
-    skipped: tuple[Skipped, ...] = ()  # steps, each with its reason
+    skipped: dict[str, str]  # by step that the run skips, the reason
 
     @property
     def compares(self) -> bool:
@@ -46,14 +38,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     endless = not scene.roller.rigid and settings.roller_body == "half-plane"
     unbounded = scene.body.thickness is None or scene.body.width is None or endless
     compares = half_plane and finite_elements
-    plan = Plan(
-        models,
-        coupling=half_plane and not all(uncoupled),
-        effects=compares and bool(scene.budget.effects) and bool(scene.tolerances),
-        domain_check=finite_elements and unbounded,
-        increments_check=finite_elements and settings.plastic,
-        assumptions=assumptions_of(problem),
-    )
+    coupling = half_plane and not all(uncoupled)
+    effects = compares and bool(scene.budget.effects) and bool(scene.tolerances)
     steps = [
         *((name not in models, f"{name} model", "not asked for") for name in MODELS),
         (scene.profile is None, "refinement under asperities", "the surface is smooth"),
@@ -75,20 +61,27 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         (scene.body.hardness is None, "hardness cap", "the body has no hardness"),
     ]
     if half_plane:
-        steps.append((not plan.coupling, "coupling", uncoupled[-1]))
+        steps.append((not coupling, "coupling", uncoupled[-1]))
     if finite_elements:
         shared = "it is the body's block with another modulus, or the same"
         unasked = "not asked for (budget.effects)" if scene.tolerances else "no quantity is judged"
         steps += [
             (scene.roller.rigid, "mesh of the roller", "it is rigid"),
             (problem.shares_factor, "factorisation of the roller's block", shared),
-            (not plan.effects, "effects beside the scene's own finite elements", unasked),
+            (not effects, "effects beside the scene's own finite elements", unasked),
             (not unbounded, "check of the far boundary", "the body's boundaries are its own"),
             (not settings.plastic, "check of the increments of flow", "no body flows"),
         ]
     steps.append((not compares, "comparison", "it takes both models"))
-    skipped = tuple(Skipped(step, because) for needless, step, because in steps if needless)
-    return replace(plan, skipped=skipped)
+    return Plan(
+        models,
+        coupling,
+        effects,
+        domain_check=finite_elements and unbounded,
+        increments_check=finite_elements and settings.plastic,
+        assumptions=assumptions_of(problem),
+        skipped={step: because for needless, step, because in steps if needless},
+    )
 
 
 def no_coupling(problem: Problem, friction: float) -> str | None:

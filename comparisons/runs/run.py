@@ -159,7 +159,7 @@ def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> lis
         effects.extend(selection_lines(solved, tasks))
 
     announce(scene_now, tasks, begin)
-    skipped = [f"skipped: {step.step}: {step.because}" for step in plan.skipped]
+    skipped = [f"skipped: {step}: {why}" for step, why in plan.skipped.items()]
     return [*expected(scene_now, tasks), *effects, *skipped]
 
 

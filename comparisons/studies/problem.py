@@ -96,7 +96,7 @@ def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statemen
     """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
     plan, info = solved.plan, solved.problem.surface.info
     said = [Statement(ASSUMED, text) for text in assumed(solved, before.get(MODEL_ERROR))]
-    said += [Statement("skipped", step.because, step.step) for step in plan.skipped]
+    said += [Statement("skipped", why, step) for step, why in plan.skipped.items()]
     said.append(Statement("refinement", solved.refinement))
     if info is not None and info.standard_why is not None:
         said.append(Statement("no standard parameters", info.standard_why, STANDARD))

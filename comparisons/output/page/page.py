@@ -200,7 +200,7 @@ def _after(run: Run) -> Iterator[Block]:
     items = Pictures(("convergence",)), verification.levels_tables, Note(said), Heading("Words")
     yield Block("convergence", (*items, Names(verification.WORDS)), "Convergence")
     yield Block("mesh", (Box("thirds", (Pictures(("mesh",)),)),), "Mesh")
-    skipped = tuple((item.step, item.because) for item in run.plan.skipped)
+    skipped = tuple(run.plan.skipped.items())
     yield Block("skipped", (Names(skipped) if skipped else Note("None."),), "Skipped steps")
     yield Block("record", (_record,), "Record")
 
