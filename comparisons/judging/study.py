@@ -70,11 +70,6 @@ class Solved:
         costs are those of all cases, which are solved together."""
         return self.cases[0].runs
 
-    @property
-    def window(self) -> Window | None:
-        """Points of the common field, None without [stress]."""
-        return self.problem.window
-
     def case(self, friction: float) -> Case:
         return next(case for case in self.cases if case.friction == friction)
 

@@ -55,7 +55,7 @@ def expected_with(problem: Problem, pitch: float) -> ExpectedCost:
     cost, window = expected_of(problem.grid(pitch).count), problem.window
     if window is None:
         return cost
-    pressed, searched = np.ptp(problem.extent), search_window(problem, window)
+    pressed, searched = np.ptp(problem.extent), search_window(problem)
     pressed *= 1.0 if problem.period is None else 3.0  # three periods of pressures
     ring = (np.ptp(window.ends) + pressed) * window.subdivisions(pitch) / pitch
     points = max(0.0, ring - FREE_POINTS)
@@ -196,7 +196,7 @@ def _stresses(
 def _sides(problem: Problem, effects: frozenset[str], level: Level) -> list[_Side]:
     """The layer and what lies below it; the body itself where there is no layer."""
     body, window = layered_body(problem.scene, effects), problem.window
-    searched, rest = search_window(problem, window), beside_hats(problem, level)
+    searched, rest = search_window(problem), beside_hats(problem, level)
     if body is None:
         return [_Side(problem.scene.body.material, None, False, rest, searched)]
     reach = min(window.x[0], searched.x[0]), max(window.x[-1], searched.x[-1])

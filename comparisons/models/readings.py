@@ -93,7 +93,7 @@ def largest_tau1(
 ) -> Extremum:
     """The largest tau1 [Pa] in the window below hats of pressure (n,) [Pa] and their sliding
     traction, with the stresses `beside` them at x and z [m]."""
-    field = hats_field(grid, pressure, search_window(problem, problem.window)).at(friction)
+    field = hats_field(grid, pressure, search_window(problem)).at(friction)
     stress = field.stress.plus(1.0, beside(*np.meshgrid(field.x, field.z)))
     field, nu = StressField(field.x, field.z, stress), problem.scene.body.poissons_ratio
     return stress_maxima(grid.x, pressure, friction, field, nu, beside=beside).tau1

@@ -79,13 +79,14 @@ def _steps(low: float, high: float, step: float) -> np.ndarray:
     return np.arange(np.ceil(first), np.floor(last) + 1.0) * step
 
 
-def search_window(problem: Problem, window: Window) -> Window:
-    """Points from which the search for extremes inside a window starts, whatever its density: along
-    x the coarsest level's pressures, a tenth of the shortest wave; depths by a fixed ratio."""
-    low, high = window.ends
-    spacing = min(problem.pitches[0], 0.5 * (high - low))
-    depth = window.z[-1]
-    first = min(FIRST_DEPTH * problem.pitches[0], 0.5 * depth)
+def search_window(problem: Problem) -> Window:
+    """Points from which the search for extremes inside the window starts, whatever its
+    density: along x the coarsest level's pressures, a tenth of the shortest wave; depths by a
+    fixed ratio."""
+    window, pitch = problem.window, problem.pitches[0]
+    (low, high), depth = window.ends, window.z[-1]
+    spacing = min(pitch, 0.5 * (high - low))
+    first = min(FIRST_DEPTH * pitch, 0.5 * depth)
     growth = np.log1p(depth / first * (SEARCH_RATIO - 1.0)) / np.log(SEARCH_RATIO)
     rows = max(3, int(np.ceil(growth)) + 1)
     x = np.arange(round(low / spacing), round(high / spacing) + 1) * spacing

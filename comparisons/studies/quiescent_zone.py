@@ -168,7 +168,7 @@ def zone_figures(case: Case, run: ModelRun) -> tuple[tuple[Figure, ...], str]:
 
 def needs(solved: Solved) -> str | None:
     """Why the field does not show a zone, None where it does."""
-    window, half_width = solved.window, solved.problem.hertz.half_width
+    window, half_width = solved.problem.window, solved.problem.hertz.half_width
     if solved.problem.scene.periodic:
         return "below a periodic surface there is no Hertz zone"
     ends = min(window.x[-1], -window.x[0]), window.z[-1]
@@ -250,7 +250,7 @@ def _said(zone: Zone, a: float) -> str:
 STUDY = Study(
     name=NAME,
     quantities=QUANTITIES,
-    applies=lambda solved: solved.problem.scene.profile is not None and solved.window is not None,
+    applies=lambda solved: bool(solved.problem.scene.profile and solved.problem.window),
     needs=needs,
     solve=solve,
     title="Quiescent zone",

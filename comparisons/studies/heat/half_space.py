@@ -214,7 +214,7 @@ def half_plane_stress(problem: Problem, level: Level) -> HeatedStress:
 
 def _thermal(problem: Problem, level: Level) -> Callable[[np.ndarray, np.ndarray], StressState]:
     """Thermal stresses of x and z [m] in the window, by splines between the nodes of the fluxes."""
-    window = search_window(problem, problem.window)
+    window = search_window(problem)
     x, stress = _thermal_line(problem, level, (window.x[0], window.x[-1]), window.z)
     order = min(3, len(window.z) - 1)
     parts = [RectBivariateSpline(window.z, x, part, kx=order) for part in vars(stress).values()]

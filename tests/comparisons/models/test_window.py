@@ -60,7 +60,7 @@ def test_points_belong_to_the_grid_of_every_level(columns):
 
 def test_the_search_is_as_dense_as_the_coarsest_pressures():
     posed = problem(points=[10, 10])
-    searched = search_window(posed, window_of(posed))
+    searched = search_window(posed)
     assert np.diff(searched.x).max() == pytest.approx(posed.pitches[0])
     assert searched.z[1] < posed.pitches[0]
     assert (searched.z[3:] / searched.z[2:-1]).max() < 1.7
