@@ -12,14 +12,11 @@ c normal-tangential coupling, 0 none:
 These add up to the whole, F(W) - F(0), in any order: an effect without a solution by itself counts
 in the interaction. The scene's own finite elements do not contain F(W) - F(scene)."""
 
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, NONLINEAR
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import STRAINED, ModelVariant, law_variants
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import COUPLED, Problem
 
@@ -103,19 +100,3 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
         increments = (*(replace(small, times=times) for times in LONGER), small)
     laws = law_variants(whole, selection.laws)
     return SplitVariants(whole, of_scene, variant(nothing), pairs, laws, increments)
-
-
-def solutions_of(
-    solved: Callable[[ModelVariant | None], QuantitiesOfInterest],
-    split: SplitVariants,
-    whole_alone: bool = False,
-) -> dict[ModelVariant | None, QuantitiesOfInterest]:
-    """By variant, those that have a solution on a level, or the whole and the scene's own.
-
-    solved  the solution of a variant there, of the scene's own finite elements for None; raises
-            NotComputedError where there is none, which is passed on of the whole"""
-    found = {variant: solved(variant) for variant in (split.whole, split.of_scene)}
-    for variant in () if whole_alone else split.all:
-        with suppress(NotComputedError):
-            found[variant] = solved(variant)
-    return found

@@ -3,8 +3,7 @@ further level could change is no verdict."""
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 from comparisons.common.tasks import LAST, LATER
@@ -14,7 +13,6 @@ from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    solutions_of,
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions, figure_of
@@ -66,11 +64,8 @@ class EffectRefinement:
         self, rows: tuple[Figure, ...], variants: SolvedVariants, selection: EffectSelection
     ) -> None:
         self.rows, self.variants, self.selection = rows, variants, selection
-        self.problem, self.solutions = variants.problem, []
-        for case in variants.scene.cases:
-            split = split_variants(self.problem, selection, case.friction)
-            self.solutions.append(Solutions(case, split, selection.laws))
-        self.splits = [one.split for one in self.solutions]
+        self.problem, self.cases = variants.problem, variants.scene.cases
+        self.splits = [split_variants(self.problem, selection, c.friction) for c in self.cases]
         variants.keep(split.whole for split in self.splits)
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
         self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
@@ -92,80 +87,80 @@ class EffectRefinement:
         Raises NotComputedError where a whole has no solution on the least levels."""
         most = min(most, most_effect_levels(self.problem), len(self.variants.of_scene.levels))
         self.announce(LAST)
-        left_out = self._take_wholes(most, is_frugal)
-        levels = len(self.solutions[0].history)
-        for number in range(1, levels + 1):
-            is_open = any(self.variants.is_open(variant, number) for variant in self.every)
-            if number <= LEAST_LEVELS or not is_open:
-                self._take(number, alone=False)
-        finest = self.variants.finest
+        levels, left_out = self._solve_wholes(most, is_frugal)
+        for number in range(1, min(levels, LEAST_LEVELS) + 1):
+            self.variants.prepare(self.every, number)
+        solutions, finest = self._solutions(levels), self.variants.finest
         return ErrorBudget(
             selection=self.selection,
             levels=levels,
-            unsplit=next((one.unsplit for one in self.solutions if one.unsplit), None),
-            model_errors=tuple(self._errors()),
-            wholes=tuple(finest(one.split.whole, one.case.friction) for one in self.solutions),
+            unsplit=next((one.unsplit for one in solutions if one.unsplit), None),
+            model_errors=tuple(self._errors(solutions)),
+            wholes=tuple(finest(one.split.whole, one.case.friction) for one in solutions),
             left_out=left_out,
-            solutions=tuple(self.solutions),
+            solutions=tuple(solutions),
         )
 
-    def _take_wholes(self, most: int, is_frugal: bool) -> str | None:
-        """As many levels of the wholes as it takes; which one cannot change a verdict."""
+    def _solve_wholes(self, most: int, is_frugal: bool) -> tuple[int, str | None]:
+        """As many levels of the wholes as it takes; which further one cannot change a verdict."""
         for number in range(1, min(most, LEAST_LEVELS) + 1):
-            self._take(number, alone=True)
+            self._solve_whole(number)
         if most >= LEAST_LEVELS:
-            self._take_checks()
+            self._solve_checks()
         for number in range(LEAST_LEVELS + 1, most + 1):
-            errors = self._errors()
+            errors = self._errors(self._solutions(number - 1))
             if _settled(self.rows, errors):
-                break
+                return number - 1, None
             if is_frugal and self._are_fixed(errors):
-                return f"level {number} of the whole model: cannot change a verdict ({ASKED})"
+                further = f"level {number} of the whole model"
+                return number - 1, f"{further}: cannot change a verdict ({ASKED})"
             # by the laws of cost: clocks would give another machine other figures
             finer = GROWTH_OF_TIME * self.variants.expected_of(number - 1, self.wholes)
             if spent_seconds(self.variants, number) + finer > self.problem.time:
-                break
+                return number - 1, None
             try:
-                self._take(number, alone=True)
+                self._solve_whole(number)
             except NotComputedError:
-                break
-        return None
+                return number - 1, None
+        return most, None
 
-    def _take(self, number: int, alone: bool) -> None:
-        """A level into the history: of the wholes alone, or of every variant."""
-        self.variants.prepare(self.wholes if alone else self.every, number)
-        taken = []
-        for one in self.solutions:
-            solved = partial(self.variants.solution, number=number, friction=one.case.friction)
-            found, nothing = solutions_of(solved, one.split, alone), one.split.nothing
-            before = one.history[number - 1] if number <= len(one.history) else {}
-            history = (*one.history[: number - 1], before | found, *one.history[number:])
-            one = replace(one, history=history)
-            if not alone:
-                why = None if nothing in found else str(self.variants.failed[nothing, number])
-                why = one.unsplit or why
-                one = replace(one, unsplit=why, levels_split=0 if why else number)
-            taken.append(one)
-        self.solutions = taken  # all of them, or none
+    def _solve_whole(self, number: int) -> None:
+        self.variants.prepare(self.wholes, number)
+        for error in (self.variants.failed.get((variant, number)) for variant in self.wholes):
+            if error is not None:
+                raise error
 
-    def _take_checks(self) -> None:
-        """On the coarsest level, those checks that have a solution; where one of the laws has none,
-        no law is taken."""
-        for number, one in enumerate(self.solutions):
-            first = dict(one.history[0])
-            for variant in one.split.checks:
-                with suppress(NotComputedError):
-                    first[variant] = self.variants.solution(variant, 1, one.case.friction)
-            self.solutions[number] = replace(one, history=(first, *one.history[1:]))
+    def _solve_checks(self) -> None:
+        """On the coarsest level; where one of the laws has no solution, none is taken."""
+        for split in self.splits:
+            self.variants.prepare(split.checks, 1)
         laws = (variant for split in self.splits for variant in split.laws.values())
         failed = [error for law in laws if (error := self.variants.failed.get((law, 1)))]
         if failed and self.selection.laws:
             why = f"with the law of {failed[0].variant.laws_name}: {failed[0]}"
             self.selection = self.selection.without(frozenset({LAW}), why)
-            self.solutions = [replace(one, laws=()) for one in self.solutions]
 
-    def _errors(self) -> list[Figure]:
-        known = [(one, row) for one in self.solutions for row in self.rows]
+    def _solutions(self, levels: int) -> list[Solutions]:
+        """Of each case, what is solved so far on so many levels. The split is on those on which no
+        variant is open."""
+        known, taken = self.variants, []
+        for case, split in zip(self.cases, self.splits, strict=True):
+            history, unsplit, levels_split = [], None, 0
+            for number in range(1, levels + 1):
+                solved = partial(known.solution, number=number, friction=case.friction)
+                tried = [v for v in (*split.all, *split.checks) if not known.is_open(v, number)]
+                found = {v: solved(v) for v in tried if (v, number) not in known.failed}
+                history.append({split.of_scene: solved(split.of_scene)} | found)
+                if levels_split == number - 1 and set(split.all) <= set(tried):
+                    levels_split = number
+                    if split.nothing not in found:
+                        unsplit = unsplit or str(known.failed[split.nothing, number])
+            how = {"levels_split": 0 if unsplit else levels_split, "unsplit": unsplit}
+            taken.append(Solutions(case, split, self.selection.laws, tuple(history), **how))
+        return taken
+
+    def _errors(self, solutions: list[Solutions]) -> list[Figure]:
+        known = [(one, row) for one in solutions for row in self.rows]
         return [one.error(row) for one, row in known if row.friction == one.case.friction]
 
     def _are_fixed(self, errors: list[Figure]) -> bool:

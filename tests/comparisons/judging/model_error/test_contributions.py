@@ -2,8 +2,10 @@
 
 import itertools
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import reduce
 from operator import sub
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -13,11 +15,11 @@ from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.effects.variants import problem_with as body_problem
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    solutions_of,
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.model_error.refinement import EffectRefinement
 from comparisons.judging.rule import relative_differences
 from comparisons.judging.study import Case
 
@@ -44,7 +46,11 @@ def what_is_left(parts: Solutions) -> QuantitiesOfInterest:
 def split_by(problem, solutions, friction=0.0, contained=(), added=()):
     """The variants, and what was solved on one level."""
     split = split_variants(problem, selection_of(contained, added), friction)
-    return split, Solutions(Case(problem), split, (), (solutions_of(solutions, split),), 1)
+    level = {}
+    for variant in (None, *split.all):
+        with suppress(NotComputedError):
+            level[variant] = solutions(variant)
+    return split, Solutions(Case(problem), split, (), (level,), 1)
 
 
 @pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
@@ -133,10 +139,13 @@ class TestWithoutSolution:
         assert parts.effects == {} and split.nothing not in parts.history[0]
         assert not is_nothing(parts.missing[0])
 
-    def test_of_the_whole_nothing_is_known(self, problem_with, made_solutions):
-        split = split_variants(problem_with(), selection_of(added=self.ADDED), 0.0)
+    def test_of_the_whole_nothing_is_known(self, problem_with):
+        problem, selection = problem_with(), selection_of(added=self.ADDED)
+        whole = split_variants(problem, selection, 0.0).whole
+        variants = Mock(problem=problem, failed={(whole, 1): NotComputedError(whole, "no mesh")})
+        variants.scene.cases, variants.of_scene.levels = (Case(problem),), (None,) * 3
         with pytest.raises(NotComputedError):
-            solutions_of(made_solutions(PLAIN, frozenset({split.whole})), split)
+            EffectRefinement((), variants, selection).budget(3, is_frugal=False)
 
 
 class TestLargestValues:
