@@ -208,13 +208,6 @@ def mapped(tmp_path):
     return tmp_path
 
 
-def complaint(*folder, **profile) -> str:
-    with pytest.raises(SceneError) as caught:
-        with_profile(*folder, **profile)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
-
-
 class TestMaps:
     def test_a_row(self, mapped):
         surface = with_profile(mapped, **MAP, row=3, form="none")
@@ -239,23 +232,6 @@ class TestMaps:
         assert again.tables == scene.tables
         surface = surface_of(scene)
         assert np.array_equal(surface_of(again).profile.height, surface.profile.height)
-
-    @pytest.mark.parametrize(
-        ("changes", "words"),
-        [
-            ({}, "is a map of 6 rows and 41 columns, 4e-05 m by 5e-06 m, and a profile is one li"),
-            ({"row": 6}, "has no row 6 (a map of 6 rows and 41 columns"),
-            ({"line": [[0, 0], ["50 um", 0]]}, "line leaves the map"),
-        ],
-    )
-    def test_choices_that_the_file_does_not_allow(self, mapped, changes, words):
-        message = complaint(mapped, **MAP, **changes)
-        assert message.startswith(f"mine.toml: profile.file: {mapped / 'map.npy'}: {words}")
-
-    def test_text_needs_its_unit(self, tmp_path):
-        (tmp_path / "trace.csv").write_text("0,1\n1,2\n2,0\n3,1\n4,1\n")
-        message = complaint(tmp_path, file="trace.csv", x_unit="um")
-        assert message.startswith("mine.toml: profile.z_unit: is missing; allowed is a unit of len")
 
 
 class TestFilter:

@@ -165,5 +165,4 @@ def test_the_command_says_where_the_deck_is(tmp_path, capsys):
     assert main(["deck", "layer", "--for", "calculix", "--out", str(out)]) == 0
     assert str(out / "README.md") in capsys.readouterr().out
     assert f"--answer calculix={out}/answer.toml" in (out / "README.md").read_text()
-    assert main(["deck", "layer", "--for", "ansys", "--out", str(out)]) == 2
     assert main(["deck", "layer", "--for", "calculix", "--out", str(out), "--level", "0"]) == 2

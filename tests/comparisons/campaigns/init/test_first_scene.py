@@ -277,7 +277,6 @@ def test_json(folder, capsys):
     ("name", "content", "arguments", "words"),
     [
         ("absent.csv", None, [], "there is no such file"),
-        ("trace.csv", b"", [], "is empty"),
         ("trace.csv", b"one\ntwo\n", [], "has no samples"),
         ("trace.csv", b"1,2\n2,x\n3,4\n4,5\n", [], "is not a number"),
         ("trace.bin", b"\x00\x01\x02" * 99, [], "SurfaceTopography"),
