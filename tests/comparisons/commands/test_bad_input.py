@@ -205,7 +205,10 @@ def test_wrong_file(folder, content, fragment, complaint):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["run", "smoth"], "smoth: is neither a file nor a scene; the nearest scene is smooth, al"),
+        (
+            ["run", "smoth"],
+            "smoth: is neither a file nor a scene; the nearest scene is smooth, all are",
+        ),
         (["run", "absent.toml"], "absent.toml: there is no such file"),
         (["run", "/dev/null"], "is not a regular file; allowed is a TOML file"),
         (["run", ""], "allowed is a scene's file or name"),

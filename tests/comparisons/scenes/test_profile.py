@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import SMOOTH, changed, resolved
+from scenes import SMOOTH, as_toml, changed, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
@@ -129,12 +129,8 @@ def test_paths_start_from_the_scene(tmp_path, monkeypatch):
     (tmp_path / "scenes").mkdir()
     measured(tmp_path / "scenes", WAVES)
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "scenes" / "mine.toml").write_text(
-        "[roller]\nradius = 8e-3\nrigid = true\n"
-        "[body]\nyoungs_modulus = 2e11\npoissons_ratio = 0.3\n"
-        "[load]\nper_length = 1e6\n"
-        "[profile]\nfile = 'trace.csv'\nx_unit = 'um'\nz_unit = 'um'\n"
-    )
+    tables = changed(BARE, profile={"file": "trace.csv", "x_unit": "um", "z_unit": "um"})
+    (tmp_path / "scenes" / "mine.toml").write_text(as_toml(tables))
     assert surface_of(Scene.read("scenes/mine.toml")).info.samples == 201
 
 
