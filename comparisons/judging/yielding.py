@@ -152,7 +152,7 @@ class FlowAssessment:
         shear, typical = with_unit(self.worst.value, "Pa", 2), typical_shears(self.scene.body)
         where = ""
         if self.ratio is None and typical and self.least_shear > BOTH_CRITERIA * typical[1]:
-            where = flow_of(self.scene.body, *typical)
+            where = flow_of(self.scene.body)
         elif self.scene.asks_elastic and self.is_certain:
             where = f"beyond a shear of Y/√3 = {with_unit(self.yield_in_shear, 'Pa', 2)}"
         return f"it flows at such stresses: {where}, the largest is {shear}" if where else ""
@@ -265,7 +265,7 @@ def may_flow(run: Run, at_any: bool = False) -> str:
         return "" if at_any else f"{below} flows"
     if flow.worst.value < typical[1 if at_any else 0]:
         return ""
-    return f"{flow_of(body, *typical)}, and the largest here is {shear}"
+    return f"{flow_of(body)}, and the largest here is {shear}"
 
 
 def flow_sentence(run: Run) -> str:

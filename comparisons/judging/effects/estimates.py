@@ -296,9 +296,8 @@ def why_no_flow(problem: Problem) -> str | None:
     """Why finite elements that flow cannot be solved in a scene."""
     scene = problem.scene
     if scene.body.yield_stress is None:
-        typical, unknown = typical_shears(scene.body), "the body has no yield stress"
-        stands = typical and not scene.body.hardness  # nothing stands for its flow
-        return f"{unknown}, {flow_of(scene.body, *typical)}" if stands else unknown
+        known = typical_shears(scene.body) and not scene.body.hardness  # which stands for flow
+        return "the body has no yield stress" + (f", {flow_of(scene.body)}" if known else "")
     if scene.load.kind == "approach":
         return "it takes no prescribed approach"
     if scene.finite_element.deformation == "finite":
@@ -315,7 +314,7 @@ def typical_shears(body: BodySection) -> tuple[float, float] | None:
     return known and (0.5 * known[0], 0.5 * known[1])
 
 
-def flow_of(body: BodySection, low: float, high: float) -> str:
-    """At which shears [Pa] its solid typically flows, as a clause."""
-    span = " to ".join(dict.fromkeys(with_unit(end, "Pa", 2) for end in (low, high)))
+def flow_of(body: BodySection) -> str:
+    """At which shears its solid typically flows, as a clause."""
+    span = " to ".join(dict.fromkeys(with_unit(end, "Pa", 2) for end in typical_shears(body)))
     return f"{body.solid or ' or '.join(body.kinds)} typically flows at a shear of {span}"
