@@ -57,7 +57,7 @@ def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProble
     if scene.finite_element.plastic and code == "fenicsx":
         why = "is true; allowed in a deck for fenicsx are elastic bodies"
         raise SceneError(f"{scene.source}: finite_element.plastic: {why}")
-    deck = deck_problem(problem, problem.pitches[0] / 2.0 ** (level - 1))
+    deck = deck_problem(problem, problem.pitch_of(level))
     files = fenicsx_files(deck) if code == "fenicsx" else calculix_files(deck)
     values = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
     for name in ("README.md", "answer.toml"):

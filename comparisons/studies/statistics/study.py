@@ -167,7 +167,7 @@ def _loads(here: Here, problem: Problem) -> tuple[list[dict[str, float]], dict[s
 def _step(problem: Problem, step: int) -> tuple[float, float]:
     """Load [N/m] and pitch [m]: light loads touch little."""
     load = problem.hertz.load_per_length * 10.0 ** (-step / PER_DECADE)
-    return load, problem.pitches[0] / 2.0 ** (step // PER_DECADE)
+    return load, problem.pitch_of(1 + step // PER_DECADE)
 
 
 def _grid(problem: Problem, load: float, profile: Profile, pitch: float) -> HatGrid:
