@@ -170,12 +170,11 @@ class EffectRefinement:
         return all(figure.is_fixed for figure in figures if figure.bounds)
 
 
-def spent_seconds(variants: SolvedVariants, below: int | None = None) -> float:
+def spent_seconds(variants: SolvedVariants, below: float = math.inf) -> float:
     """Seconds of the levels of the scene's finite elements and of all variants, of these `below` a
     number, by the laws of cost."""
-    numbers = {number for _, number in variants.expected if below is None or number < below}
-    spent = sum(level.expected_seconds for level in variants.of_scene.levels)
-    return spent + sum(variants.expected_of(number) for number in sorted(numbers))
+    spent = [cost for (_, number), cost in variants.expected.items() if number < below]
+    return math.fsum([*spent, *(level.expected_seconds for level in variants.of_scene.levels)])
 
 
 def _settled(rows: tuple[Figure, ...], errors: list[Figure]) -> bool:
