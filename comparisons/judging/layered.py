@@ -13,10 +13,10 @@ from comparisons.figures.figure import Findings
 from comparisons.figures.quantity import COMPARED
 from comparisons.judging.comparison import differences
 from comparisons.judging.effects.catalogue import contained
+from comparisons.judging.ladder.candidates import why_no_stresses
 from comparisons.judging.ladder.rungs import operator_runs
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LAYERED, Solved, Study
-from comparisons.models.candidates import why_no_stresses
 from comparisons.models.operators import LAYERS, is_layered
 
 

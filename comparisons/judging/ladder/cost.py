@@ -30,9 +30,9 @@ from comparisons.figures.figure import Column, Figures, Findings, Series, Statem
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
+from comparisons.judging.ladder import candidates
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, Solved, Study
-from comparisons.models import candidates
 from comparisons.models.level import Level, flowing_contact
 from comparisons.models.model import Model
 from comparisons.models.problem import Problem

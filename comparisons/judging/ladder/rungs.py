@@ -17,14 +17,14 @@ from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
 from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.ladder import candidates
+from comparisons.judging.ladder.candidates import words_of
 from comparisons.judging.model_error.model_error import Solutions, figure_of
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
-from comparisons.models import candidates
-from comparisons.models.candidates import words_of
 from comparisons.models.level import ModelRun
 from comparisons.models.model import Model
 from comparisons.models.smooth import closed_form

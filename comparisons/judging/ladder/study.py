@@ -10,7 +10,7 @@ from comparisons.figures.figure import Column, Findings, Series, Statement, near
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS
-from comparisons.judging.ladder import show
+from comparisons.judging.ladder import candidates, show
 from comparisons.judging.ladder.rungs import (
     HALF_PLANE,
     Rung,
@@ -20,7 +20,6 @@ from comparisons.judging.ladder.rungs import (
 )
 from comparisons.judging.model_error.error_budget import effects_of_run
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Solved, Study
-from comparisons.models import candidates
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:

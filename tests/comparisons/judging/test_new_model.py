@@ -2,10 +2,10 @@
 
 from scenes import STEEL, run_of
 
+from comparisons.judging.ladder import candidates
+from comparisons.judging.ladder.candidates import CANDIDATES, Candidate
 from comparisons.judging.ladder.cost import methods_of
 from comparisons.judging.ladder.show import RUNGS
-from comparisons.models import candidates
-from comparisons.models.candidates import CANDIDATES, Candidate
 from comparisons.models.problem import Levels
 
 NARROW = {

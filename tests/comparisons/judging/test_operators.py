@@ -12,8 +12,8 @@ from analytic.exact.layers import TABLE
 from comparisons.campaigns.maps.groups import scene_with
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
+from comparisons.judging.ladder.candidates import CANDIDATES, words_of
 from comparisons.models.analytic import CAP, analytic_level
-from comparisons.models.candidates import CANDIDATES, words_of
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import COUPLED
 from comparisons.models.smooth import closed_form
