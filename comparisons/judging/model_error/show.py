@@ -53,8 +53,8 @@ NOTE = """Model error: (half-plane − whole model) / whole model, which is a fi
 with every effect that may matter here. A minus says that the half-plane's figure is too low. In
 grey its contributions: each effect was computed by itself, as the difference that it makes in the
 finite elements; *interaction* is what the effects change jointly beyond their sum. A largest value
-is followed at the asperity where the whole model has it; *another asperity* is what the half-
-plane's largest exceeds its own value there, and both places are named. *Not modelled* under a
+is followed at the asperity where the whole model has it; *another asperity* is what the
+half-plane's largest exceeds its own value there, and both places are named. *Not modelled* under a
 quantity: effects that no model has may exceed its tolerance. The verdict is taken from these
 errors."""
 OF_EFFECTS = """An effect is computed where its estimate, from the scene's dimensionless groups,
