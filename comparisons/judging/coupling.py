@@ -36,8 +36,8 @@ QUANTITIES = contact.QUANTITIES | {
 }
 UNCOUPLED = "uncoupled"  # the half-plane without it
 NOTE = """Normal-tangential coupling: sliding traction also moves the surfaces of unlike bodies up
-and down, in proportion to friction times Dundurs' β. {}; of the shift over the
-Hertz half-width. Solved on the finest pressure elements."""
+and down, in proportion to friction times Dundurs' β. {}; of the shift over the Hertz half-width.
+Solved on the finest pressure elements."""
 CONTAINED = "The half-plane's figures contain that; the change is against those without"
 NOT_CONTAINED = """The figures above do not contain that, as the method was published; the change is
 against them"""
@@ -69,12 +69,10 @@ class Coupling:
 
 def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
     """Of the half-plane as far as it is refined, computed once; none where there is no coupling."""
+    if not solved.plan.coupling:
+        return ()
     levels = len(solved.runs["half_plane"].levels)
-    return (
-        ()
-        if not solved.plan.coupling
-        else tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
-    )
+    return tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
