@@ -16,7 +16,7 @@ import numpy as np
 if TYPE_CHECKING:
     from comparisons.figures.figure import Figure, Part
     from comparisons.judging.study import Run
-    from comparisons.models.level import Level, ModelRun
+    from comparisons.models.level import Level, Solution
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
 
@@ -226,7 +226,7 @@ def posed(run: "Run", **changes: object) -> "Run":
     return replace(run, solved=replace(run.solved, **changes))
 
 
-def with_levels(run: "Run", runs: dict[str, "ModelRun"]) -> "Run":
+def with_levels(run: "Run", runs: dict[str, "Solution"]) -> "Run":
     """A finished run whose models have other levels in every case, with the same findings."""
     return posed(run, cases=tuple(replace(case, runs=runs) for case in run.solved.cases))
 

@@ -11,7 +11,7 @@ from comparisons.figures.quantity import COMPARED
 from comparisons.judging.rule import COMPARISON as NAME
 from comparisons.judging.rule import judged, norms_of
 from comparisons.judging.study import Case, Solved, Study
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 
 SHOWN = 2.0 / 3.0  # of the uncertainty that a figure which is shown may have: a difference's own
 
@@ -24,7 +24,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     )
 
 
-def differences(case: Case, model: ModelRun, solved: Solved) -> Iterator[Figure]:
+def differences(case: Case, model: Solution, solved: Solved) -> Iterator[Figure]:
     """Those of an analytic model from the finite elements of a case, and their norms."""
     elements = case.runs["finite_element"]
     yield from judged(model, case.problem, elements).values()

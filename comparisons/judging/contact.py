@@ -19,7 +19,7 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.rule import CONTACT as NAME
 from comparisons.judging.rule import EXTREMES, judged
 from comparisons.judging.study import SCATTER, Case, Run, Solved, Study
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 from comparisons.models.smooth import closed_form
 
@@ -70,7 +70,7 @@ def no_approach(problem: Problem, model: str) -> str | None:
     return None
 
 
-def _of(case: Case, run: ModelRun) -> Iterator[Figure]:
+def _of(case: Case, run: Solution) -> Iterator[Figure]:
     """The figures of one model."""
     problem, level = case.problem, run.finest
     half_width, peak, stress = problem.hertz.half_width, peak_position(level), level.stress

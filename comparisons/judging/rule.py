@@ -22,7 +22,7 @@ from comparisons.figures.uncertainty import (
     length_resolution,
     of_increments,
 )
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
@@ -34,7 +34,7 @@ EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mise
 
 def judged_by(
     study: str,
-    models: Sequence[ModelRun],
+    models: Sequence[Solution],
     read: Callable[..., Mapping[str, float]],
     how: Callable[[str, float], Reading],
     at: Mapping[str, float],
@@ -70,7 +70,7 @@ def judged_by(
     return figures
 
 
-def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -> dict[str, Figure]:
+def judged(model: Solution, problem: Problem, against: Solution | None = None) -> dict[str, Figure]:
     """By quantity: the model's figure [SI]; or (model - other) / other, judged where the scene has
     a tolerance. `problem` is that of the case."""
     both = [model] if against is None else [model, against]
@@ -104,7 +104,7 @@ def judged(model: ModelRun, problem: Problem, against: ModelRun | None = None) -
     return judged_by(COMPARISON if against else CONTACT, both, read, how, at)
 
 
-def norms_of(model: ModelRun, problem: Problem, against: ModelRun) -> Iterable[Figure]:
+def norms_of(model: Solution, problem: Problem, against: Solution) -> Iterable[Figure]:
     """The norms of both models' difference. They may be equal by chance: what a repetition changes
     counts by its own norm."""
     both, first = (model, against), against.levels[0]
@@ -152,7 +152,7 @@ def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
 
 
 def by_repetition(
-    models: Sequence[ModelRun], read: Callable[..., Mapping[str, float]]
+    models: Sequence[Solution], read: Callable[..., Mapping[str, float]]
 ) -> dict[str, tuple[float, float]]:
     """Uncertainties by the far boundary and by the increments of flow of what is read off a level
     of each model, in its units: by the coarsest levels and what these were repeated with."""

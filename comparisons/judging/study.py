@@ -17,7 +17,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.drawing.blocks import Block
 from comparisons.figures.figure import FAILED, Figure, Figures, Findings, Statement
 from comparisons.figures.quantity import WHOLE, Quantity
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -39,7 +39,7 @@ class Case:
     """A scene at one friction coefficient, as far as it is solved."""
 
     problem: Problem  # at that coefficient alone
-    runs: Mapping[str, ModelRun] = field(default_factory=dict)  # by model
+    runs: Mapping[str, Solution] = field(default_factory=dict)  # by model
 
     @property
     def friction(self) -> float:
@@ -65,7 +65,7 @@ class Solved:
     all_methods: bool = False  # solve it by every method and resolution, for what they cost
 
     @property
-    def runs(self) -> Mapping[str, ModelRun]:
+    def runs(self) -> Mapping[str, Solution]:
         """The models of the first case, by name; empty before anything is solved. Their sizes and
         costs are those of all cases, which are solved together."""
         return self.cases[0].runs
@@ -112,7 +112,7 @@ class Run:
         return self.problem.window
 
     @property
-    def runs(self) -> Mapping[str, ModelRun]:
+    def runs(self) -> Mapping[str, Solution]:
         return self.solved.runs
 
     @cached_property

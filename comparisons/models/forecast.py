@@ -8,7 +8,7 @@ import numpy as np
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import significant, with_unit
 from comparisons.figures.quantity import MODELS
-from comparisons.models.level import ModelRun, flowing_contact
+from comparisons.models.level import Solution, flowing_contact
 from comparisons.models.model import scene_model
 from comparisons.models.plan import LONGER, Plan
 from comparisons.models.problem import Problem
@@ -83,7 +83,7 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     )
 
 
-def with_one_more(problem: Problem, runs: Mapping[str, ModelRun]) -> tuple[float, float]:
+def with_one_more(problem: Problem, runs: Mapping[str, Solution]) -> tuple[float, float]:
     """Seconds of all levels that the models have and of one more of each, and memory [bytes] of the
     largest of these."""
     time = sum(level.expected_seconds for run in runs.values() for level in run.levels)

@@ -228,7 +228,7 @@ class Level:
 
 
 @dataclass(frozen=True)
-class ModelRun:
+class Solution:
     """One model at one friction coefficient on its levels, coarse to fine, or in their place what a
     study finds on them."""
 

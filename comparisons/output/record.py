@@ -17,7 +17,7 @@ from comparisons.common.errors import InputError, one_line
 from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.problem import MOST_LEVELS, Levels, Problem
 from comparisons.output import result_json
 from comparisons.output.result_json import Result
@@ -30,7 +30,7 @@ HOW_READ = ("format", "place", "bridged", "trimmed", "stretch")  # a trace
 BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
 
-def record_of(problem: Problem, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
+def record_of(problem: Problem, runs: dict[str, Solution], hashes: dict[str, str]) -> dict:
     """record.json: everything that a repetition needs, the profile's samples included.
     Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
     A repetition starts from the trace and takes off form and waves, and runs in, itself."""

@@ -18,7 +18,7 @@ from comparisons.models.forecast import with_one_more
 from comparisons.models.level import (
     ExpectedCost,
     Level,
-    ModelRun,
+    Solution,
     flowing_contact,
     refuse_too_large,
 )
@@ -167,7 +167,7 @@ class _Levels:
         cases = []
         for case in self.scene.cases:
             levels = {n: [of[case.friction] for of in self.levels[n][:number]] for n in models}
-            runs = {name: ModelRun(name, tuple(of_model)) for name, of_model in levels.items()}
+            runs = {name: Solution(name, tuple(of_model)) for name, of_model in levels.items()}
             cases.append(replace(case, runs=runs))
         return replace(self.scene, cases=tuple(cases))
 
@@ -193,7 +193,7 @@ class _Levels:
             cases.append(replace(case, runs=runs))
         return replace(solved, cases=tuple(cases), refinement=why)
 
-    def spent(self, runs: Mapping[str, ModelRun]) -> str | None:
+    def spent(self, runs: Mapping[str, Solution]) -> str | None:
         """Why one more level of every model would exceed the budget, or the machine's memory, or
         None. Time is that of the laws by which levels are planned: by a clock, a busy machine would
         stop at other figures."""

@@ -20,7 +20,7 @@ from comparisons.figures.uncertainty import Reading, iteration
 from comparisons.judging import contact
 from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Run, Solved, Study
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.scenes.studies.published import DIMENSIONS, LOWERING, PublishedSection
 from comparisons.studies.friction import partial_slip
 
@@ -77,7 +77,7 @@ def _lowering(solved: Solved) -> Iterable[Figure]:
     def how(name: str, value: float) -> Reading:
         return Reading(LOWERED.formal_order, value, iteration=iteration(run.finest.solution))
 
-    return judged_by(NAME, [ModelRun(run.name, run.levels)], read, how, case.at).values()
+    return judged_by(NAME, [Solution(run.name, run.levels)], read, how, case.at).values()
 
 
 def table(sections: Mapping[str, PublishedSection], figures: Figures) -> list[tuple[str, ...]]:

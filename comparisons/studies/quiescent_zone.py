@@ -40,7 +40,7 @@ from comparisons.figures.quantity import LABELS, Quantity
 from comparisons.figures.uncertainty import Reading, iteration
 from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Case, Run, Solved, Study
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 
 NAME = "quiescent_zone"
@@ -146,7 +146,7 @@ def asperity_rows(problem: Problem, level: Level) -> list[dict[str, object]]:
     return rows
 
 
-def zone_figures(case: Case, run: ModelRun) -> tuple[tuple[Figure, ...], str]:
+def zone_figures(case: Case, run: Solution) -> tuple[tuple[Figure, ...], str]:
     """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
     boundary, iteration, and what reading every second row and column of the window changes."""
     coarse, unsolved = zone_of(case.problem, run.finest, 2), iteration(run.finest.solution)

@@ -33,7 +33,7 @@ from comparisons.common.tasks import Tasks
 from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.judging.study import Case, Run, Solved, studied
-from comparisons.models.level import Level, MeshField, ModelRun, StressResult
+from comparisons.models.level import Level, MeshField, Solution, StressResult
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -155,7 +155,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     resolved_all = "every judged quantity is resolved"
     cases = []
     for mu in problem.scene.load.friction:
-        runs = {n: ModelRun(n, tuple(level[mu] for level in of)) for n, of in levels.items()}
+        runs = {n: Solution(n, tuple(level[mu] for level in of)) for n, of in levels.items()}
         cases.append(Case(problem.under(mu), runs))
     solved = Solved(problem, plan, tuple(cases), resolved_all)
     sizes = dict.fromkeys(QUANTITIES, SAMPLING)

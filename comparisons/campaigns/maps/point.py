@@ -14,7 +14,7 @@ from comparisons.common.tasks import Here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.rule import judged, values_of
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.model import Model, scene_model
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
@@ -31,7 +31,7 @@ GROWTH = 2.3  # of unknowns from one level to the next
 DECIMALS = 9  # of relative differences: the digits that rounding does not reach
 FIGURES = 10  # significant, of the models' own values
 
-Runs = dict[str, ModelRun]
+Runs = dict[str, Solution]
 
 
 def solve_point(point: Point) -> dict:
@@ -98,8 +98,8 @@ def _refined(problem: Problem, plan: Plan, friction: float) -> Iterator[Runs]:
         half_plane.append(solved(plane, number))
         if number >= least:
             yield {
-                "half_plane": ModelRun("half_plane", tuple(half_plane)),
-                "finite_element": ModelRun("finite_element", tuple(finite_element), check),
+                "half_plane": Solution("half_plane", tuple(half_plane)),
+                "finite_element": Solution("finite_element", tuple(finite_element), check),
             }
             if GROWTH * finite_element[-1].unknowns > MOST_UNKNOWNS:
                 break

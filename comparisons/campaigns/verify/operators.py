@@ -34,7 +34,7 @@ from comparisons.figures.quantity import QUANTITIES
 from comparisons.figures.uncertainty import Reading, iteration, length_resolution
 from comparisons.judging import contact
 from comparisons.judging.rule import judged_by
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge
@@ -96,7 +96,7 @@ def operator_figures(case: OperatorContact, elements: float) -> CaseFigures:
         return Reading(order, abs(value), edges / abs(value), iteration(solution))
 
     how_solved = case.source, case.kind, all(solution.converged for _, solution in levels)
-    figures = judged_by(contact.NAME, [ModelRun(case.model, levels)], read, how, {})
+    figures = judged_by(contact.NAME, [Solution(case.model, levels)], read, how, {})
     pairs = (compared(f, case.exact[name], *how_solved) for name, f in figures.items())
     return tuple(chain.from_iterable(pairs))
 

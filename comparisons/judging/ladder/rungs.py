@@ -25,7 +25,7 @@ from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.model import Model
 from comparisons.models.smooth import closed_form
 
@@ -128,7 +128,7 @@ def _with(name: str, one: Solutions) -> list[QuantitiesOfInterest]:
     return [level.get(variant, level[one.split.nothing]) for level in levels]
 
 
-def _beside(one: Solutions, runs: dict[float, ModelRun]) -> Iterator[Figure]:
+def _beside(one: Solutions, runs: dict[float, Solution]) -> Iterator[Figure]:
     """Errors of a model that was solved on the pressure elements of the finite elements."""
     run, elements = runs[one.case.friction], one.case.runs[OTHER]
     known = replace(one, case=replace(one.case, runs={HALF_PLANE: run, OTHER: elements}))
@@ -162,7 +162,7 @@ def announce_operators(
 
 def operator_runs(
     solved: Solved, held: frozenset[str], tasks: Tasks
-) -> dict[float, ModelRun] | None:
+) -> dict[float, Solution] | None:
     """The half-plane with some of the effects, by friction coefficient, on the pressure elements of
     the finite elements; None where it has no solution."""
     keys = announce_operators(solved, held, len(solved.runs[OTHER].levels), tasks)
@@ -173,7 +173,7 @@ def operator_runs(
     if not all(level.converged for of_pitch in levels for level in of_pitch.values()):
         return None
     frictions = [case.friction for case in solved.cases]
-    return {mu: ModelRun(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
+    return {mu: Solution(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
 
 
 def _closed_form(case: Case) -> dict[str, float]:
@@ -187,7 +187,7 @@ def _closed_form(case: Case) -> dict[str, float]:
     return values
 
 
-def _took(run: ModelRun) -> tuple[float, float]:
+def _took(run: Solution) -> tuple[float, float]:
     """Seconds of a model's levels, and the largest memory of their processes [bytes]."""
     return sum(run.seconds.values()), max(level.peak_memory for level in run.levels)
 

@@ -16,7 +16,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
     quantities_of,
 )
 from comparisons.judging.study import Solved
-from comparisons.models.level import Level, ModelRun
+from comparisons.models.level import Level, Solution
 from comparisons.models.model import Model
 from comparisons.models.problem import COUPLED
 from fem.solver.mumps import FemError
@@ -51,7 +51,7 @@ class SolvedVariants:
         self._own_effects = contained(own) if is_taken_apart(own) else None
 
     @property
-    def of_scene(self) -> ModelRun:
+    def of_scene(self) -> Solution:
         """The scene's own finite elements, of the first case."""
         return self.scene.runs["finite_element"]
 

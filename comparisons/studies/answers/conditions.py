@@ -12,14 +12,14 @@ from dataclasses import asdict
 from analytic.contact.problem import assessed
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.operators import operator_of
 from comparisons.models.problem import Problem
 from comparisons.studies.answers.answer import Answer
 
 
 def operators_of(
-    problem: Problem, runs: Mapping[str, ModelRun]
+    problem: Problem, runs: Mapping[str, Solution]
 ) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
     """Pressure elements and compliance by model."""
     grid = list(runs.values())[-1].finest.grid

@@ -16,7 +16,7 @@ from comparisons.figures.quantity import Quantity
 from comparisons.figures.uncertainty import PRESSURE_PER_RESIDUAL, Reading, length_resolution
 from comparisons.judging.rule import judged_by
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.scenes.studies.published import HELD_LOWERING, HELD_PRESSURE
 from comparisons.studies.answers import study as answers
 from comparisons.studies.friction.half_planes import SlippedLevel, half_plane_slip
@@ -85,7 +85,7 @@ def solvers(solved: Solved) -> dict[str, Solve]:
     return {name: solvers[name] for name in solved.runs if name in solvers}
 
 
-def _loaded(run: ModelRun, load: Solve, count: int) -> ModelRun:
+def _loaded(run: Solution, load: Solve, count: int) -> Solution:
     """A model's levels under the path of loads, the coarsest also on a block of half the size and
     by half as many increments."""
     levels, smaller, fewer = tuple(load(level, increments=count) for level in run.levels), None, ()
@@ -93,10 +93,10 @@ def _loaded(run: ModelRun, load: Solve, count: int) -> ModelRun:
         smaller = load(run.levels[0], increments=count, half_block=True)
     if levels[0].is_stepped:
         fewer = (load(run.levels[0], increments=count // 2),)
-    return ModelRun(run.name, levels, smaller, fewer)
+    return Solution(run.name, levels, smaller, fewer)
 
 
-def slip_figures(case: Case, models: Sequence[ModelRun]) -> dict[str, Figure]:
+def slip_figures(case: Case, models: Sequence[Solution]) -> dict[str, Figure]:
     """By a model, or both models' difference over the finite elements' figure."""
     slip, meshed = case.problem.scene.partial_slip, case.problem.scene.finite_element
     finest, apart = [model.finest for model in models], len(models) > 1
@@ -128,7 +128,7 @@ def slip_figures(case: Case, models: Sequence[ModelRun]) -> dict[str, Figure]:
 
 
 def _series(
-    model: ModelRun, at: Mapping[str, float], figures: Mapping[str, Figure]
+    model: Solution, at: Mapping[str, float], figures: Mapping[str, Figure]
 ) -> tuple[Series, Series]:
     """Zones at the end, and the path, as certain as the figures at its end."""
     level = model.finest

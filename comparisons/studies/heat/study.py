@@ -16,7 +16,7 @@ from comparisons.figures.quantity import MODELS, Quantity
 from comparisons.figures.uncertainty import Reading, Uncertainty, iteration, peak_resolution
 from comparisons.judging.rule import judged_by
 from comparisons.judging.study import Case, Solved
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.problem import Problem
 from comparisons.studies.heat.half_space import (
     HEAT_QUANTITIES,
@@ -106,7 +106,7 @@ def _heated(
     by_half_plane: Callable[..., Heated],
     by_elements: Callable[..., Heated],
     **smaller: float,
-) -> list[ModelRun]:
+) -> list[Solution]:
     """What each model finds on its levels; finite elements also on the coarsest in a `smaller`
     block."""
     models, solvers = [], dict(zip(MODELS, (by_half_plane, by_elements), strict=True))
@@ -116,12 +116,12 @@ def _heated(
         if solve is by_elements:
             first = run.far_boundary_check or run.levels[0]
             check = solve(case.problem, first, **smaller)
-        models.append(ModelRun(name, levels, check))
+        models.append(Solution(name, levels, check))
     return models
 
 
 def _figures(
-    case: Case, models: Sequence[ModelRun], parts: Mapping[str, Sequence[Part]] = {}
+    case: Case, models: Sequence[Solution], parts: Mapping[str, Sequence[Part]] = {}
 ) -> list[Figure]:
     """By each model, with heat and without, and their differences. Both models' uncertainties add
     up: next to the ends of contact, where the flux is infinite, they discretise it each in its own
@@ -154,7 +154,7 @@ def _figures(
     return [*(figure for of_model in by_model for figure in of_model.values()), *differences]
 
 
-def _by_model(case: Case, model: ModelRun, sizes: Mapping[str, float]) -> dict[str, Figure]:
+def _by_model(case: Case, model: Solution, sizes: Mapping[str, float]) -> dict[str, Figure]:
     solution, places = case.runs[model.name].finest.solution, model.finest.places
 
     def how(name: str, value: float) -> Reading:
@@ -174,7 +174,7 @@ def _by_model(case: Case, model: ModelRun, sizes: Mapping[str, float]) -> dict[s
 
 
 def _parts(
-    case: Case, models: Sequence[ModelRun], features: Iterable[str]
+    case: Case, models: Sequence[Solution], features: Iterable[str]
 ) -> dict[str, list[Part]]:
     """By figure: of each of the `features` that the finite elements alone have what it is without
     that, over what it is with it, less 1; of both models' difference also what their pressures

@@ -16,10 +16,10 @@ from comparisons.figures.uncertainty import (
 from comparisons.judging.comparison import SHOWN, discretisations
 from comparisons.judging.rule import judged, judged_by, relative_resolution
 from comparisons.judging.study import Case, Run
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 
 
-def of_pressures(run: ModelRun, levels: tuple, factors: tuple[float, ...]) -> ModelRun:
+def of_pressures(run: Solution, levels: tuple, factors: tuple[float, ...]) -> Solution:
     """The run on these levels with so many times their pressures."""
     made = (
         replace(level, solution=replace(level.solution, pressure=f * level.solution.pressure))
@@ -32,7 +32,7 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
-    run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
+    run = Solution("finite_element", levels, far_boundary_check=levels[1])
     stated = judged(run, smooth_outcome.problem)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
     assert stated.uncertainty.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
@@ -42,7 +42,7 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
 def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(smooth_outcome: Run):
     """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
     level = smooth_outcome.runs["half_plane"].finest
-    run = ModelRun("half_plane", (level, level, level))
+    run = Solution("half_plane", (level, level, level))
     stated = judged(run, smooth_outcome.problem)
     expected = 0.1 * level.grid.pitch / level.contact_length
     assert stated["contact_length"].uncertainty.parts["discretisation"] == pytest.approx(expected)
@@ -84,8 +84,8 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
 
 def test_what_either_model_repeats_counts_in_their_difference():
     """Levels that are numbers: one on a smaller block, the other there and by longer increments."""
-    one = ModelRun("one", (5.0, 4.0), 6.0)
-    other = ModelRun("other", (3.0, 3.5), 3.2, (2.0, 2.6))
+    one = Solution("one", (5.0, 4.0), 6.0)
+    other = Solution("other", (3.0, 3.5), 3.2, (2.0, 2.6))
 
     def read(one: float, other: float) -> dict[str, float]:
         return {"difference": one - other}

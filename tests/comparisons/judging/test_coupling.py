@@ -18,7 +18,7 @@ from comparisons.judging.effects.catalogue import estimates
 from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import WHY_NOT, Case, Run, Solved
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.problem import Problem
 
 DATA_F = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
@@ -50,12 +50,12 @@ def solved(tables: dict, **load) -> Run:
     return run_of(tables, "half_plane", load=load)
 
 
-def half_plane_of(problem) -> ModelRun:
+def half_plane_of(problem) -> Solution:
     levels = (half_plane_at(problem, pitch) for pitch in problem.pitches)
-    return ModelRun("half_plane", tuple(levels))
+    return Solution("half_plane", tuple(levels))
 
 
-def change_of(problem: Problem, levels: ModelRun) -> Coupling:
+def change_of(problem: Problem, levels: Solution) -> Coupling:
     """What coupling changes in a solved half-plane."""
     case = Case(replace(problem, window=None), {"half_plane": levels})
     [change] = couplings(Solved(case.problem, None, (case,)), no_progress)

@@ -33,7 +33,7 @@ from comparisons.figures.quantity import (
 from comparisons.figures.uncertainty import COVERAGE
 from comparisons.judging import contact
 from comparisons.judging.study import Run
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 
 TO_SIGN = ("name, place, date", "signature")  # by hand
 PARTS = {
@@ -62,7 +62,7 @@ def levels_tables(run: Run) -> list[TextTable]:
 
 
 def _levels_table(
-    run: Run, title: str, model: ModelRun, figures: Figures, before: Sequence[tuple[str, ...]] = ()
+    run: Run, title: str, model: Solution, figures: Figures, before: Sequence[tuple[str, ...]] = ()
 ) -> TextTable:
     """Figures on the levels of a model, below rows of texts on each level."""
     has = {"domain": model.far_boundary_check, "increments": model.longer_increments}
@@ -82,7 +82,7 @@ def _levels_table(
     return TextTable(title, head, tuple(rows))
 
 
-def _solved(model: ModelRun) -> list[tuple[str, ...]]:
+def _solved(model: Solution) -> list[tuple[str, ...]]:
     """Elements, unknowns, counts of the contact solver and time of each level."""
     levels, pitch = model.levels, scale_of([model.levels[0].grid.pitch], "m")
     counts = [level.solution.iterations for level in levels]

@@ -12,7 +12,7 @@ from comparisons.judging.model_error.show import not_modelled_line
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.problem import Levels
 from comparisons.output.result_json import content_of, read_content, result_of
 
@@ -38,7 +38,7 @@ def pressed(problem_with, tmp_path):
 
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
-    case = Case(problem, {"half_plane": ModelRun("half_plane", tuple(levels))})
+    case = Case(problem, {"half_plane": Solution("half_plane", tuple(levels))})
     changes = sampling_changes(Solved(problem, None, (case,)), Tasks())
     return values_of(levels[-1], problem), changes
 

@@ -44,7 +44,7 @@ from comparisons.judging.study import (
 )
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.judging.verdict.next_step import Offer, next_of, pasted
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
@@ -122,7 +122,7 @@ def stated(draw: random.Random, problem: Problem) -> Run:
     scene = problem.scene
     plan = make_plan(problem, MODELS if draw.random() < 0.95 else MODELS[:1])
     levels = (half_plane_at(problem),) * 2  # certain
-    runs = {name: ModelRun(name, levels) for name in plan.models}
+    runs = {name: Solution(name, levels) for name in plan.models}
     cases = tuple(Case(problem.under(mu), runs) for mu in problem.scene.load.friction)
     solved = Solved(problem, plan, cases)
     findings = {contact.NAME: contact.solve(solved, {}, None)}

@@ -16,7 +16,7 @@ from comparisons.common.cache import Cache
 from comparisons.common.executors import ExecutorWorker
 from comparisons.common.tasks import Tasks
 from comparisons.judging.study import unsolved
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Solution
 from comparisons.models.plan import make_plan
 from comparisons.runs.run import run
 from comparisons.scenes.studies.scatter import Spread
@@ -119,7 +119,7 @@ def test_a_run_says_it(tmp_path, capsys):
 
 def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
     kept, posed = Cache(tmp_path, "key", {}), problem(changed(SCENE, scatter={"samples": 8}))
-    half_plane = ModelRun("half_plane", (half_plane_at(posed),))
+    half_plane = Solution("half_plane", (half_plane_at(posed),))
     scene = unsolved(posed, make_plan(posed, ("half_plane",)))
 
     def solve_all():
