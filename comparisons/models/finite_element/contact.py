@@ -1,13 +1,13 @@
 """Contact on finite elements: the mutual compliance of the bodies, and the solution on it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import KKT_TOLERANCE, ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
@@ -105,21 +105,31 @@ def compliance_again(problem: Problem, level: Level, half_block: bool = False) -
     return mutual_compliance(problem, bodies, level.grid)
 
 
-def solve_mutual(
-    operator: MutualCompliance,
-    model: ModelOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    start: np.ndarray,
-    tolerance: float = KKT_TOLERANCE,
-) -> ContactSolution:
-    """The contact of the finite elements; by their whole matrix if iteration fails to settle."""
-    solver, dense = solve_contact, DenseCompliance
-    if operator.coupled:
-        solver, dense = solve_coupled, DenseCoupledCompliance
-    posed = operator, model, gap, weights, constraints, start, tolerance
-    solution = solve_with_model(*posed, solver=solver)
-    if solution.converged or len(gap) > MOST_DENSE:
-        return solution
-    return solve_on(dense(operator.matrix()), gap, weights, constraints, solution.pressure)
+@dataclass(frozen=True)
+class SmallStrainContact:
+    """The contact of linear bodies at small strains, which any other contact of a level starts
+    from. Without bodies it is that of the nearest analytic operator, which predicts theirs."""
+
+    problem: Problem
+    grid: HatGrid
+    gap: np.ndarray  # (count,) [m^2] initial, weighted by each hat
+    constraints: Constraints
+    model: ModelOperator  # the nearest analytic operator
+    solution: ContactSolution
+    bodies: BodyPair | None = None
+    operator: MutualCompliance | None = None
+
+    def on(self, bodies: BodyPair, tolerance: float) -> "SmallStrainContact":
+        """The contact of bodies, from this one; by their whole matrix if iteration fails to
+        settle."""
+        operator = mutual_compliance(self.problem, bodies, self.grid)
+        weights, constraints = self.grid.weights, self.constraints
+        solver, dense = solve_contact, DenseCompliance
+        if operator.coupled:
+            solver, dense = solve_coupled, DenseCoupledCompliance
+        posed = operator, self.model, self.gap, weights, constraints, self.solution.pressure
+        solution = solve_with_model(*posed, tolerance, solver=solver)
+        if not solution.converged and len(weights) <= MOST_DENSE:
+            whole = dense(operator.matrix())
+            solution = solve_on(whole, self.gap, weights, constraints, solution.pressure)
+        return replace(self, solution=solution, bodies=bodies, operator=operator)

@@ -5,32 +5,20 @@ large that it stands for a half-plane. An elastic roller is a second body under 
 a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
 compliances; analytic operators only predict it."""
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
-from analytic.grid import HatGrid
-from analytic.operators.half_plane import ModelOperator
+from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
-from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
-from comparisons.models.finite_element.contact import (
-    MutualCompliance,
-    mutual_compliance,
-    solve_mutual,
-)
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
+from comparisons.models.finite_element.contact import SmallStrainContact
 from comparisons.models.finite_element.cost import expected
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import (
-    pressed_finitely,
-    pressed_plastically,
-    pressed_plastically_finitely,
-)
+from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
 from comparisons.models.operators import LAYERS, operator_of, solve_on
@@ -68,32 +56,32 @@ def finite_element_level(
 
     def solve(problem: Problem) -> dict[float, Level]:
         """Under friction coefficients that share a contact."""
-        frictions = problem.scene.load.friction
-        solving = _LevelSolution(problem, refinement, stages, approach)
+        frictions, flows = problem.scene.load.friction, problem.scene.finite_element.plastic
         with stages.stage("assembly", "finite elements: loading"):
             start_worker()
             load_dolfinx()
-        grid = solving.grid
         with stages.stage("contact", "finite elements: predicting the contact"):
-            guess = solve_on(solving.model, solving.weighted_gap, grid.weights, problem.widest)
+            predicted = _predicted(problem, refinement.pitch, approach)
+        grid, guess = predicted.grid, predicted.solution
         ranges = contact_patches(grid.x, guess.pressure, guess.gap)
-        flows = problem.scene.finite_element.plastic
         patches = flowing_contact(problem) if flows else ranges
         cost = expected(problem, refinement, patches)
         refuse_too_large(problem, cost, "finite elements", refinement.pitch)
-        meshed = solving.meshed_contact(ranges, guess.pressure, body_cache)
-        pressed = solving.pressed(meshed)
+        contact = _meshed(predicted, ranges, refinement, stages, body_cache)
+        pressed = _pressed(contact, refinement, stages)
+        solution = pressed.solution
         level = Level(
             grid=grid,
-            solution=pressed.solution,
+            solution=solution,
             displacement=pressed.displacement / grid.weights,
             patches=pressed.patches,
             seconds=stages.seconds,
-            unknowns=sum(body.unknowns for body in meshed.bodies.all),
-            unresolved_crest=solving.unresolved_crest(pressed.solution),
+            unknowns=sum(body.unknowns for body in contact.bodies.all),
+            # none where flow decides what a crest bears
+            unresolved_crest=0.0 if flows else unresolved_crest(problem, grid, solution),
             expected_seconds=cost.seconds,
             expected_memory=cost.memory,
-            mesh=meshed.bodies.rough.mesh,
+            mesh=contact.bodies.rough.mesh,
             material=pressed.material,
         )
         if problem.window is None:
@@ -107,114 +95,66 @@ def finite_element_level(
     return by_friction(problem, problem.scene.finite_element.coupled, solve)
 
 
-@dataclass(frozen=True)
-class _MeshedContact:
-    """Both bodies, and their contact at small strains."""
+def _predicted(problem: Problem, pitch: float, approach: float | None) -> SmallStrainContact:
+    """The contact by the nearest analytic operator, wherever flow may spread it."""
+    grid, settings = problem.grid(pitch), problem.scene.finite_element
+    moved = {COUPLED} if settings.coupled else set()
+    model = operator_of(problem, grid, LAYERS | moved, roller_moves=False)
+    gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+    constraints = problem.constraints()
+    if settings.plastic:  # the body's own flow limits the pressure
+        constraints = replace(constraints, hardness=np.inf)
+    if approach is not None:
+        constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
+    solution = solve_on(model, gap, grid.weights, problem.widest)
+    return SmallStrainContact(problem, grid, gap, constraints, model, solution)
 
-    bodies: BodyPair
-    operator: MutualCompliance
-    solution: ContactSolution
+
+def _meshed(
+    contact: SmallStrainContact,
+    ranges: np.ndarray,
+    refinement: Refinement,
+    stages: Stages,
+    body_cache: BodyCache,
+) -> SmallStrainContact:
+    """The contact of bodies whose meshes are refined wherever they touch; not converged where it
+    still spreads beyond these ranges (k, 2) [m] on the last of them."""
+    problem, grid = contact.problem, contact.grid
+    # what finite deformation starts from need not be closer than it changes
+    is_finite = problem.scene.finite_element.deformation == "finite"
+    tolerance = START_TOLERANCE if is_finite else KKT_TOLERANCE
+    for _ in range(MOST_MESHES):
+        bodies = bodies_of(problem, refinement, ranges, stages, body_cache)
+        with stages.stage("contact", "finite elements: contact"):
+            contact = contact.on(bodies, tolerance)
+        if grid.periodic:  # all of the surface is refined
+            return contact
+        refined, touching = bodies.rough.mesh.spec.intervals, contact.solution.pressure > 0.0
+        missed = unrefined_contact(refined, grid.x[touching], reach=grid.pitch)
+        if len(missed) == 0:
+            return contact
+        ranges = merge(np.vstack([ranges, missed]))
+    return replace(contact, solution=replace(contact.solution, converged=False))
 
 
-@dataclass(frozen=True)
-class _LevelSolution:
-    """The steps of one level."""
+def _pressed(contact: SmallStrainContact, refinement: Refinement, stages: Stages) -> LoadedBody:
+    """Contact and bodies by the scene's laws, from that at small strains."""
+    settings = contact.problem.scene.finite_element
+    is_finite = settings.deformation == "finite"
+    if settings.plastic:
+        words = "flow at finite deformation" if is_finite else "plastic flow"
+        words = f"finite elements: {words}"
 
-    problem: Problem
-    refinement: Refinement
-    stages: Stages
-    approach: float | None  # [m] from first touch, in place of the load
+        def reached(share: float) -> None:
+            stages.callback(f"{words}, {100.0 * share:.0f} % of the load")
 
-    @cached_property
-    def grid(self) -> HatGrid:
-        return self.problem.grid(self.refinement.pitch)
-
-    @cached_property
-    def model(self) -> ModelOperator:
-        """The nearest analytic operator."""
-        moved = {COUPLED} if self.problem.scene.finite_element.coupled else set()
-        return operator_of(self.problem, self.grid, LAYERS | moved, roller_moves=False)
-
-    @cached_property
-    def weighted_gap(self) -> np.ndarray:
-        """(n,) [m^2] integrals of the initial gap with the hats."""
-        return self.grid.hat_integrals(self.problem.finite_element_gap, self.problem.knots)
-
-    @cached_property
-    def constraints(self) -> Constraints:
-        constraints = self.problem.constraints()
-        if self.problem.scene.finite_element.plastic:  # the body's own flow limits the pressure
-            constraints = replace(constraints, hardness=np.inf)
-        if self.approach is not None:
-            from_touch = self.approach + self.problem.first_touch
-            constraints = replace(constraints, load=None, approach=from_touch)
-        return constraints
-
-    @property
-    def is_finite(self) -> bool:
-        return self.problem.scene.finite_element.deformation == "finite"
-
-    def unresolved_crest(self, solution: ContactSolution) -> float:
-        """As of `comparisons.models.crest`; none where flow decides what a crest bears."""
-        flows = self.problem.scene.finite_element.plastic
-        return 0.0 if flows else unresolved_crest(self.problem, self.grid, solution)
-
-    def meshed_contact(
-        self, ranges: np.ndarray, start: np.ndarray, body_cache: BodyCache
-    ) -> _MeshedContact:
-        """Bodies whose meshes are refined wherever they touch; not converged where contact still
-        spreads beyond these ranges (k, 2) [m] on the last of them."""
-        problem, grid = self.problem, self.grid
-        # what finite deformation starts from need not be closer than it changes
-        tolerance = START_TOLERANCE if self.is_finite else KKT_TOLERANCE
-        for _ in range(MOST_MESHES):
-            bodies = bodies_of(problem, self.refinement, ranges, self.stages, body_cache)
-            refined = bodies.rough.mesh.spec.intervals
-            with self.stages.stage("contact", "finite elements: contact"):
-                operator = mutual_compliance(problem, bodies, grid)
-                solution = solve_mutual(
-                    operator,
-                    self.model,
-                    self.weighted_gap,
-                    grid.weights,
-                    self.constraints,
-                    start,
-                    tolerance,
-                )
-            if grid.periodic:  # all of the surface is refined
-                return _MeshedContact(bodies, operator, solution)
-            touching = grid.x[solution.pressure > 0.0]
-            missed = unrefined_contact(refined, touching, reach=grid.pitch)
-            if len(missed) == 0:
-                return _MeshedContact(bodies, operator, solution)
-            ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
-        return _MeshedContact(bodies, operator, replace(solution, converged=False))
-
-    def pressed(self, contact: _MeshedContact) -> LoadedBody:
-        """Contact and bodies by the scene's laws, from that at small strains."""
-        problem, grid = self.problem, self.grid
-        operator, solution = contact.operator, contact.solution
-        flows = problem.scene.finite_element.plastic
-        if flows:
-            words = "flow at finite deformation" if self.is_finite else "plastic flow"
-            words = f"finite elements: {words}"
-
-            def reached(share: float) -> None:
-                self.stages.callback(f"{words}, {100.0 * share:.0f} % of the load")
-
-            with self.stages.stage("plastic flow", words):
-                contact = problem, operator, grid, solution
-                how = self.constraints, self.refinement.travel, reached
-                if self.is_finite:
-                    return pressed_plastically_finitely(*contact, *how)
-                return pressed_plastically(*contact, self.weighted_gap, *how)
-        if self.is_finite:
-            with self.stages.stage("finite deformation", "finite elements: finite deformation"):
-                return pressed_finitely(
-                    problem, operator, grid, solution, self.constraints, self.model
-                )
-        with self.stages.stage("contact", "finite elements: contact"):
-            return pressed_linearly(problem, operator, grid, solution, self.weighted_gap)
+        with stages.stage("plastic flow", words):
+            return pressed_plastically(contact, refinement.travel, reached)
+    if is_finite:
+        with stages.stage("finite deformation", "finite elements: finite deformation"):
+            return pressed_finitely(contact)
+    with stages.stage("contact", "finite elements: contact"):
+        return pressed_linearly(contact)
 
 
 def problem_of_approach(

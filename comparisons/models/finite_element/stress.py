@@ -6,19 +6,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from analytic.contact.problem import ContactSolution
-from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
-from comparisons.models.finite_element.contact import MutualCompliance
+from comparisons.models.finite_element.contact import SmallStrainContact
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
 from comparisons.models.operators import patches_of
-from comparisons.models.problem import Problem
 from comparisons.models.readings import ends_of
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import shapes
 from fem.stress.maximum import Samples, highest_node, maxima, maximum
-from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
-from fem.stress.surface_load import SurfaceLoad
+from fem.stress.stress import NodalStress, evaluate_all
 
 
 @dataclass(frozen=True)
@@ -28,54 +25,40 @@ class LoadedBody:
     body: ElasticBody
     solution: ContactSolution
     displacement: np.ndarray  # (count,) [m^2] of its surface into the body, weighted by each hat
-    # one for each of some friction coefficients
-    stresses: Callable[[tuple[float, ...]], tuple[NodalStress, ...]]
     patches: np.ndarray  # (k, 2) [m] contact patches
-    # stress across the plane (n,) [Pa] at the mesh's points; None: nu (sx + sz)
+    # what stresses of a linear body are recovered from under some friction coefficients; of any
+    # other body `stress` and `moved` are known
+    linear: Callable[[tuple[float, ...]], RecoverableField] | None = None
+    stress: NodalStress | None = None
+    moved: np.ndarray | None = None  # (n, 2) [m] at the nodes of the displacement
+    # stress across the plane (n,) [Pa] at the mesh's points; a linear body's is nu (sx + sz)
     across: np.ndarray | None = None
     others: dict[str, np.ndarray] = field(default_factory=dict)  # further fields there, by name
     # (n,) [Pa] largest principal shear that a metal bears there; None: any
     bearable: np.ndarray | None = None
     # (count,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
-    # what stresses at all points of the mesh are recovered from, by displacements and friction
-    # coefficients; None: these stresses are known already
-    on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
-    # (n, 2) [m] at the nodes of the displacement; None: the stresses have it
-    moved: np.ndarray | None = None
 
 
-def pressed_linearly(
-    problem: Problem,
-    operator: MutualCompliance,
-    grid: HatGrid,
-    solution: ContactSolution,
-    gap: np.ndarray,
-) -> LoadedBody:
-    """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
-    one, weighted by each hat."""
-    rough, pressure = operator.rough, solution.pressure
-    ends = ends_of(problem, grid, solution)
+def pressed_linearly(contact: SmallStrainContact) -> LoadedBody:
+    """The linear elastic body under the pressures of a contact."""
+    problem, grid, solution = contact.problem, contact.grid, contact.solution
+    rough, pressure, parts = contact.operator.rough, solution.pressure, contact.operator.parts
 
-    def stresses(frictions: tuple[float, ...]) -> tuple[NodalStress, ...]:
+    def linear(frictions: tuple[float, ...]) -> RecoverableField:
         moved = np.stack([rough.displacement(pressure, friction) for friction in frictions], axis=1)
-        load = SurfaceLoad(rough.body, rough.hats, pressure, np.array(frictions))
-        return nodal_stresses(moved, load, [ends.at(friction) for friction in frictions])
-
-    def on_mesh(moved: np.ndarray, frictions: tuple[float, ...]) -> RecoverableField:
-        body = rough.body
+        body, ends = rough.body, ends_of(problem, grid, solution)
         placed = body.mesh, body.material, body.coating, body.degree, moved
         return RecoverableField(*placed, rough.hats, pressure, frictions, ends)
 
     scene = problem.scene
     dragged = scene.load.friction[0] if scene.finite_element.coupled else 0.0
-    if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
-        both = (solution.gap + solution.approach) * grid.weights - gap
-        displacement = both / operator.parts[0].factor
+    if len(parts) == 1 and not dragged:  # its share of what closed the gap
+        both = (solution.gap + solution.approach) * grid.weights - contact.gap
+        displacement = both / parts[0].factor
     else:
         displacement = rough.apply(pressure, dragged)
-    patches = patches_of(grid, solution)
-    return LoadedBody(rough.body, solution, displacement, stresses, patches, on_mesh=on_mesh)
+    return LoadedBody(rough.body, solution, displacement, patches_of(grid, solution), linear)
 
 
 def _borne(pressed: LoadedBody, nodal: NodalStress, largest: np.ndarray) -> np.ndarray:
@@ -105,8 +88,9 @@ def stresses_of(
     fields      whether these are wanted; else stresses are computed only where they may be the
                 largest
     """
-    nodal = pressed.stresses(frictions)
     body, results = pressed.body, []
+    linear = pressed.linear and pressed.linear(frictions)
+    nodal = linear.on(body) if linear else (pressed.stress,) * len(frictions)
     bounds = (*window.ends, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     shown = [None] * len(frictions)
@@ -120,27 +104,16 @@ def stresses_of(
             for name, of in shears.items()
         }
         extremes = {name: highest(most) for name, most in highest_places.items()}
-        if pressed.across is not None:
-            extremes["von_mises"] = highest_node(body, stresses, pressed.across, bounds)
+        if linear:
+            where = bounds, samples
+            mises = maximum(body, stresses, lambda s: s.von_mises(s.poissons_ratio), *where)
         else:
-            extremes["von_mises"] = maximum(
-                body,
-                stresses,
-                lambda stress: stress.von_mises(stress.poissons_ratio),
-                bounds,
-                samples,
-            )
+            mises = highest_node(body, stresses, pressed.across, bounds)
+        extremes["von_mises"] = mises
         results.append(StressResult(friction, extremes, highest_places, on_window))
-    if not fields:
-        return tuple(results), None
-    if pressed.moved is None:
-        moved = nodal[0].together[0].displacement
-    else:
-        moved = np.stack([pressed.moved] * len(frictions), axis=1)
-    if pressed.on_mesh is not None:
-        return tuple(results), pressed.on_mesh(moved, frictions)
-    others = pressed.others
-    if pressed.across is not None:
-        mises = von_mises(nodal[0].stress, pressed.across)
-        others = {"sy": pressed.across, "von_mises": mises, **others}
+    if linear or not fields:
+        return tuple(results), linear if fields else None
+    mises = von_mises(nodal[0].stress, pressed.across)
+    others = {"sy": pressed.across, "von_mises": mises, **pressed.others}
+    moved = np.stack([pressed.moved] * len(frictions), axis=1)
     return tuple(results), MeshField.of(body, frictions, nodal, moved, others)

@@ -1,5 +1,7 @@
 """A body that yields, through a scene: what flow does to the contact and what it leaves behind."""
 
+from types import SimpleNamespace
+
 import meshio
 import numpy as np
 import pytest
@@ -166,10 +168,10 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
     """The grid is wide enough for what the surface bears when it is sheared off: no scene leaves
     it, and a change that did would be said."""
     level = outcome.runs["finite_element"].finest
-    placed = outcome.problem, level.grid
-    refuse_cut_off(*placed, level.solution.pressure, level.solution.pressure, "here")
+    contact = SimpleNamespace(problem=outcome.problem, grid=level.grid, solution=level.solution)
+    refuse_cut_off(contact, level.solution.pressure, "here")
     with pytest.raises(FemError, match="contact here reaches beyond the pressure elements"):
-        refuse_cut_off(*placed, level.solution.pressure + 1.0, level.solution.pressure, "here")
+        refuse_cut_off(contact, level.solution.pressure + 1.0, "here")
 
 
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():

@@ -28,7 +28,6 @@ RIGID = {
     "load": {"hertz_peak_pressure": 2e9},
 }
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
-WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None))
 
 
 def pressed(problem, shift: float):
@@ -43,7 +42,7 @@ def pressed(problem, shift: float):
         surface = replace(problem.surface, profile=profile.shifted(end))
         problem = replace(problem, surface=surface)
     with patch.object(finite_element_nonlinear, "finite_contact", return_value=finite):
-        return pressed_finitely(problem, WHOLE, grid, linear, problem.constraints(), None)
+        return pressed_finitely(SimpleNamespace(problem=problem, grid=grid, solution=linear))
 
 
 @pytest.mark.parametrize(
