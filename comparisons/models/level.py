@@ -59,10 +59,8 @@ def flowing_contact(problem: Problem) -> np.ndarray:
     middle: so far their edges travel."""
     grid = problem.grid(problem.pitches[0])
     operator, gap = operator_of(problem, grid), problem.finite_element_gap
-    wide = pressed_on(problem, grid, operator, problem.widest, gap)
-    patches = contact_patches(grid.x, wide.pressure, wide.gap)
-    elastic = pressed_on(problem, grid, operator, gap=gap)
-    first = contact_patches(grid.x, elastic.pressure, elastic.gap)
+    ways = (pressed_on(problem, grid, operator, how, gap) for how in (problem.widest, None))
+    patches, first = (contact_patches(grid.x, one.pressure, one.gap) for one in ways)
     parted = 0.5 * (first[1:, 0] + first[:-1, 1])
     inside = ((parted[:, None] > patches[:, 0]) & (parted[:, None] < patches[:, 1])).any(axis=1)
     ends = [*patches[:, 0], *parted[inside]], [*patches[:, 1], *parted[inside]]
@@ -124,17 +122,11 @@ class MeshField:
     def at_corners(self) -> "MeshField":
         """The same on triangles of three points, those of the corners."""
         kept, cells = np.unique(self.triangles[:, :3], return_inverse=True)
-        return MeshField(
-            self.points[kept],
-            cells.reshape(-1, 3),
-            {
-                friction: StressState(s.sx[kept], s.sz[kept], s.txz[kept])
-                for friction, s in self.stresses.items()
-            },
-            {friction: moved[kept] for friction, moved in self.displacement.items()},
-            self.poissons_ratio[kept],
-            {name: values[kept] for name, values in self.others.items()},
-        )
+        stresses = {mu: StressState(*s.parts[:, kept]) for mu, s in self.stresses.items()}
+        moved = {mu: values[kept] for mu, values in self.displacement.items()}
+        others = {name: values[kept] for name, values in self.others.items()}
+        sets = stresses, moved, self.poissons_ratio[kept], others
+        return MeshField(self.points[kept], cells.reshape(-1, 3), *sets)
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     compares = half_plane and finite_elements
     coupling = half_plane and not all(uncoupled)
     effects = compares and bool(scene.budget.effects) and bool(scene.tolerances)
+    no_traction = scene.stress is not None and not any(scene.load.friction)
+    no_statistics = scene.statistics is not None and not half_plane
     steps = [
         *((name not in models, f"{name} model", "not asked for") for name in MODELS),
         (scene.profile is None, "refinement under asperities", "the surface is smooth"),
@@ -48,16 +50,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             for name, section in sections_of(type(scene)).items()
             if section.STEP is not None
         ),
-        (
-            scene.stress is not None and not any(scene.load.friction),
-            "stresses of the sliding traction",
-            "there is no friction",
-        ),
-        (
-            scene.statistics is not None and not half_plane,
-            "statistics of rough contact",
-            "they take the half-plane",
-        ),
+        (no_traction, "stresses of the sliding traction", "there is no friction"),
+        (no_statistics, "statistics of rough contact", "they take the half-plane"),
         (scene.body.hardness is None, "hardness cap", "the body has no hardness"),
     ]
     if half_plane:

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from analytic.contact.patches import contact_patches
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid
@@ -15,7 +14,7 @@ from analytic.material import combined_modulus
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import SceneError
 from comparisons.models.operators import LAYERS, is_layered, operator_of, patches_of, pressed_on
-from comparisons.models.problem import MARGIN, SMOOTH_MARGIN, Levels, Problem, least_of_flow
+from comparisons.models.problem import Levels, Problem, least_of_flow
 from comparisons.models.running_in import run_in_surface
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
@@ -220,8 +219,7 @@ def _contact_extent(problem: Problem) -> tuple[float, float]:
         around = max(touching[1] - touching[0], slack)
         low, high = max(low, touching[0] - around), min(high, touching[1] + around)
         touching, slack = _search_extent(problem, low, high)
-    margin = MARGIN if profile is not None else SMOOTH_MARGIN
-    margin = margin * half_width + 2.0 * slack
+    margin = problem.margin + 2.0 * slack
     return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
 
 
@@ -240,21 +238,21 @@ def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[flo
     frictions, problems = problem.scene.load.friction, [problem]
     if problem.coupling:
         problems = [problem.under(mu) for mu in (min(frictions), max(frictions))]
-    starts, stops = zip(*(_touched(p, (low, high), layered=False) for p in problems), strict=True)
-    start, stop = min(starts), max(stops)
+    touched = [_touched(one, (low, high), one.half_plane_effects) for one in problems]
     if is_layered(problem.scene):
-        other = _touched(problem, (low, high), layered=True)
-        start, stop = min(start, other[0]), max(stop, other[1])
-    return (start, stop), 2.0 * (high - low) / SEARCH_HATS
+        touched.append(_touched(problem, (low, high)))
+    starts, stops = zip(*touched, strict=True)
+    return (min(starts), max(stops)), 2.0 * (high - low) / SEARCH_HATS
 
 
-def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tuple[float, float]:
-    """First and last contact [m] in a range by SEARCH_HATS hats, on half-plane or layers."""
+def _touched(
+    problem: Problem, ends: tuple[float, float], effects: frozenset[str] = LAYERS
+) -> tuple[float, float]:
+    """First and last contact [m] in a range by SEARCH_HATS hats, on layers or the half-plane."""
     grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
-    effects = LAYERS if layered else problem.half_plane_effects
     solution = pressed_on(problem, grid, operator_of(problem, grid, effects), problem.widest)
-    patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return float(patches[0, 0]), float(patches[-1, 1])
+    first, *_, last = patches_of(grid, solution).ravel().tolist()
+    return first, last
 
 
 def _pitches(problem: Problem) -> tuple[float, ...]:
@@ -269,7 +267,7 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
         return tuple(_whole(problem, asked) / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
     if is_layered(scene) and problem.period is None:
-        start, stop = _touched(problem, problem.extent, layered=True)
+        start, stop = _touched(problem, problem.extent)
         finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(problem.surface.profile) / HATS_PER_WAVE)
@@ -331,7 +329,7 @@ def _check_circle(problem: Problem) -> None:
         return
     widest = WIDEST_CIRCLE * scene.roller.radius
     if farthest > widest and is_layered(scene):
-        farthest = np.abs(_touched(problem, problem.extent, layered=True)).max()
+        farthest = np.abs(_touched(problem, problem.extent)).max()
     if farthest > widest:
         reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller.radius:.3g} m"
         raise SceneError(

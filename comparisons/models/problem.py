@@ -137,6 +137,11 @@ class Problem:
         size = max(size, self.least_block)
         return size, max(size, WIDTHS_DEEP * (self.scene.body.width or 0.0))
 
+    @property
+    def margin(self) -> float:
+        """[m] of the grid beyond the outermost contact."""
+        return (SMOOTH_MARGIN if self.scene.profile is None else MARGIN) * self.hertz.half_width
+
     def under(self, friction: float) -> "Problem":
         """The problem under one of the scene's friction coefficients alone."""
         return replace(self, scene=self.scene.unchecked({"load.friction": (friction,)}))

@@ -4,7 +4,7 @@ import numpy as np
 
 from analytic.stress.field import graded_depths
 from comparisons.common.errors import SceneError
-from comparisons.models.problem import MARGIN, SMOOTH_MARGIN, Problem, Window
+from comparisons.models.problem import Problem, Window
 from comparisons.scenes.fields import Extent
 
 HALF_RANGE = Extent(1.5, in_half_widths=True)  # of a field, to either side
@@ -22,8 +22,7 @@ def field_ends(problem: Problem) -> tuple[float, float]:
     reach = (wanted or HALF_RANGE).metres(half_width)
     # without the last digits of a computed surface, which would move the mesh
     start, stop = (round(end / half_width, 6) * half_width for end in problem.extent)
-    margin = half_width * (SMOOTH_MARGIN if problem.scene.profile is None else MARGIN)
-    first, last = start + margin, stop - margin
+    first, last = start + problem.margin, stop - problem.margin
     is_seen = max(-first, last) <= reach if wanted is None else -last <= reach >= first
     middle, most = 0.0, 0.5 * (problem.width or np.inf)
     if not is_seen:

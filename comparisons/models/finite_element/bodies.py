@@ -4,7 +4,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from comparisons.models.finite_element.mesh import Refinement, block_spec, rough
 from comparisons.models.finite_element.roller import (
     disc_support,
     is_disc,
-    is_shaped,
     roller_key,
     roller_mesh,
     roller_spec,
@@ -25,7 +24,7 @@ from fem.body.support import Sides, Support
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 
-Result = TypeVar("Result")
+Made = TypeVar("Made")
 
 UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
 HELD = 2  # a rough body, and what presses it: each more would add to the memory of a whole run
@@ -46,6 +45,23 @@ class BodyPair:
         return (self.rough,) if self.roller is None else (self.rough, self.roller)
 
 
+class Latest(Generic[Made]):
+    """The latest few of what was made, by what it was made of."""
+
+    def __init__(self) -> None:
+        self._held: OrderedDict[Hashable, Made] = OrderedDict()
+
+    def __call__(self, make: Callable[[], Made], *key: Hashable) -> Made:
+        """What was made of a key, made where it is new; the oldest beyond HELD is dropped."""
+        if key in self._held:
+            self._held.move_to_end(key)
+            return self._held[key]
+        while len(self._held) >= HELD:  # before the next is made: memory
+            self._held.popitem(last=False)
+        self._held[key] = make()
+        return self._held[key]
+
+
 class BodyCache:
     """The latest meshes and factored bodies, which all that need the same ones share.
     Loads, friction coefficients, laws at finite strains and profiles in the gap change neither, but
@@ -53,17 +69,7 @@ class BodyCache:
     the last."""
 
     def __init__(self) -> None:
-        self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()
-        self._bodies: OrderedDict[Hashable, ElasticBody] = OrderedDict()
-
-    def mesh(self, spec: BlockSpec) -> BlockMesh:
-        return _held(self._meshes, _key(spec), partial(build_block, spec))
-
-    def body(
-        self, shape: Hashable, make: Callable[[], ElasticBody], *properties: Hashable
-    ) -> ElasticBody:
-        """The body of a shape and its properties, made and factored where it is new."""
-        return _held(self._bodies, (shape, *properties), make)
+        self.mesh, self.body = Latest[BlockMesh](), Latest[ElasticBody]()
 
 
 def bodies_of(
@@ -74,55 +80,52 @@ def bodies_of(
     body_cache: BodyCache,
 ) -> BodyPair:
     """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
-    scene, settings = problem.scene, problem.scene.finite_element
+    scene, degree = problem.scene, problem.scene.finite_element.degree
 
-    def body(
-        shaped: Callable[[], BlockMesh],
-        shape: Hashable,
+    def factored(
+        spec: BlockSpec,
+        words: str,
+        shaped: Callable[[Problem, BlockMesh], BlockMesh],
+        shape: tuple[Hashable, ...],
         material: Material,
         support: Support,
         coating: Coating | None = None,
     ) -> ElasticBody:
-        """Factored."""
+        """The body on the flat mesh of a spec, made `shaped`; flat ones of one spec are alike."""
 
         def make() -> ElasticBody:
             with stages.stage("mesh", "finite elements: mesh"):
-                mesh = shaped()
+                mesh = shaped(problem, flat)
             with stages.stage("assembly", "finite elements: assembly"):
                 made = elastic_body(mesh, material, support, degree=degree, coating=coating)
             with stages.stage("factorisation", "finite elements: factorisation"):
                 _ = made.factor
             return made
 
-        degree, linear = settings.degree, replace(material, law=Law())
-        known = body_cache.body(shape, make, linear, support, degree, coating)
+        key, linear = _key(spec), replace(material, law=Law())
+        with stages.stage("mesh", f"finite elements: {words}"):
+            flat = body_cache.mesh(partial(build_block, spec), key)
+        known = body_cache.body(make, key, shape, linear, support, degree, coating)
         return known if known.material == material else known.with_law(material.law)
 
     spec = block_spec(problem, refinement, patches)
     beyond = 0.5 if refinement.half_block else np.inf
     support = rough_support(problem, spec, beyond)
-    with stages.stage("mesh", "finite elements: mesh"):
-        flat = body_cache.mesh(spec)
-    shape = (_key(spec), rough_key(problem)) if problem.rough_boundary else _key(spec)
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
-    shaped = partial(rough_mesh, problem, flat)
-    rough = body(shaped, shape, scene.body.material, support, coating)
+    shaped = rough_mesh, rough_key(problem)
+    rough = factored(spec, "mesh", *shaped, scene.body.material, support, coating)
     if scene.roller.rigid:
         return BodyPair(rough, None, 0.0)
     if problem.shares_factor:
-        share = scene.body.youngs_modulus / scene.roller.youngs_modulus
-        return BodyPair(rough, None, share)
+        return BodyPair(rough, None, scene.body.youngs_modulus / scene.roller.youngs_modulus)
     wanted = roller_spec(problem, spec)
-    with stages.stage("mesh", "finite elements: mesh of the roller"):
-        flat = body_cache.mesh(wanted)
-    # flat, it is that of a flat rough body, if they are alike
-    shape = (_key(wanted), roller_key(problem)) if is_shaped(problem) else _key(wanted)
     aside = beyond if problem.period is None else np.inf
     within = aside * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", _sides(problem), within)
     if is_disc(problem):
         support = disc_support(problem)
-    roller = body(partial(roller_mesh, problem, flat), shape, scene.roller.material, support)
+    shaped = roller_mesh, roller_key(problem)
+    roller = factored(wanted, "mesh of the roller", *shaped, scene.roller.material, support)
     return BodyPair(rough, roller, 0.0)
 
 
@@ -146,14 +149,3 @@ def _key(spec: BlockSpec) -> Hashable:
     """The spec as something that can be looked up."""
     values = (getattr(spec, field.name) for field in fields(spec))
     return tuple(value.tobytes() if isinstance(value, np.ndarray) else value for value in values)
-
-
-def _held(held: OrderedDict, key: Hashable, make: Callable[[], Result]) -> Result:
-    """The result of a key, made where it is not there; the oldest beyond HELD is dropped."""
-    if key in held:
-        held.move_to_end(key)
-        return held[key]
-    while len(held) >= HELD:  # before the next is made: memory
-        held.popitem(last=False)
-    held[key] = make()
-    return held[key]

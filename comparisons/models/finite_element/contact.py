@@ -92,9 +92,7 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
         )
     # the roller's traction is the opposite one
     turn = (1.0 - share) / (1.0 + share)
-    return MutualCompliance(
-        (BodyShare(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share), turn),)
-    )
+    return MutualCompliance((BodyShare(rough, 1.0 + share, friction * turn, turn),))
 
 
 def compliance_again(problem: Problem, level: Level, half_block: bool = False) -> MutualCompliance:

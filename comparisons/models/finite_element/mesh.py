@@ -78,9 +78,11 @@ def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     return roughen(flat, _boundary(problem)) if problem.rough_boundary else flat
 
 
-def rough_key(problem: Problem) -> Hashable:
-    """What shapes the rough boundary of a body, beside its flat mesh."""
+def rough_key(problem: Problem) -> tuple[Hashable, ...]:
+    """What shapes the rough boundary of a body, beside its flat mesh; nothing where it is flat."""
     profile = problem.surface.profile
+    if not problem.rough_boundary:
+        return ()
     return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
 
 

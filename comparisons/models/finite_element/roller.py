@@ -24,9 +24,11 @@ SECTOR = 0.7, 0.6  # of the radius: half-width and depth of the sector where no 
 FARTHEST = 0.6
 
 
-def roller_key(problem: Problem) -> Hashable:
-    """What shapes the boundary of a roller, beside its flat mesh."""
+def roller_key(problem: Problem) -> tuple[Hashable, ...]:
+    """What shapes the boundary of a roller, beside its flat mesh; nothing where it stays flat."""
     scene, settings = problem.scene, problem.scene.finite_element
+    if not is_shaped(problem):
+        return ()
     shape = settings.roller_shape, settings.roller_body, scene.roller.support
     return scene.roller.radius, *shape, problem.extent
 
