@@ -26,7 +26,15 @@ from comparisons.drawing import style
 from comparisons.drawing.blocks import Block, Box, Note, Pictures, TextTable
 from comparisons.drawing.curves import joint_legend
 from comparisons.drawing.tables import stated_text
-from comparisons.figures.figure import Column, Figures, Findings, Series, Statement, grouped
+from comparisons.figures.figure import (
+    Column,
+    Figures,
+    Findings,
+    Series,
+    Statement,
+    columns_of,
+    grouped,
+)
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
@@ -168,14 +176,23 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         errors = {} if itself else _errors(solved, by_friction, known)
         row = dict(zip(COLUMNS, (name, kind, *size, *took), strict=True))
         rows.append(row | {quantity: errors.get(quantity) for quantity in known})
-    units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
-    columns = {n: Column(tuple(r[n] for r in rows), units.get(n, "")) for n in (*COLUMNS, *known)}
     measures = (
         f"{QUANTITIES[name].short} of {best.words}, known to {percent(best.floor)}"
         for name, best in known.items()
     )
     said += [Statement("reference", "; ".join(measures))] if known else []
-    tolerances = {n: t for n, t in solved.problem.scene.tolerances.items() if n in known}
+    units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
+    table = Series(ROWS, columns_of(rows, units), is_account=True)
+    series = table, _chosen(rows, known, solved.problem.scene.tolerances)
+    data = {name: reference.floor for name, reference in known.items()}
+    return Findings((), series, tuple(said), data)
+
+
+def _chosen(
+    rows: list[dict], known: Mapping[str, Reference], tolerances: Mapping[str, float]
+) -> Series:
+    """The cheapest settings for each tolerance, and for all of them."""
+    tolerances = {name: size for name, size in tolerances.items() if name in known}
     aims = [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1)
     best = {}
     for aim in aims:
@@ -186,9 +203,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             settings.append(f"{row['model']} at {pitch}, {seconds}")
         best[", ".join(words)] = "; ".join(settings) or "none that is solved"
     chosen = {"aim": Column(tuple(best)), "setting": Column(tuple(best.values()))}
-    series = Series(ROWS, columns, is_account=True), Series(CHEAPEST, chosen, is_account=True)
-    data = {name: reference.floor for name, reference in known.items()}
-    return Findings((), series, tuple(said), data)
+    return Series(CHEAPEST, chosen, is_account=True)
 
 
 def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Reference]:
