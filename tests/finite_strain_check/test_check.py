@@ -224,6 +224,12 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
     assert len(result.patches) == len(run.outcome.runs["half_plane"].finest.patches)
 
 
+def test_every_scene_is_of_elastic_bodies():
+    """As the independent elements are: a body that may flow has no error for elastic ones."""
+    scenes = [scene_of(path) for path in cases.scene_paths().values()]
+    assert len(scenes) == 12 and all(scene.finite_element.plastic is False for scene in scenes)
+
+
 def test_the_project_holds_a_small_rough_scene(capsys):
     assert check.main(["--scenes", "polished-rigid"]) == 0
     assert "all demands hold" in capsys.readouterr().out
