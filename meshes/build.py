@@ -105,12 +105,6 @@ class GmshWorker:
 idle: list[GmshWorker] = []
 
 
-def mesh_seconds() -> float:
-    """Processor seconds of the meshes so far by processes which wait for a task: the system counts
-    those of a process among its parent's children when it has ended."""
-    return sum(worker.seconds for worker in idle)
-
-
 @atexit.register
 def close_workers() -> None:
     """End the workers that wait for a task."""

@@ -41,7 +41,7 @@ class LevelCost(NamedTuple):
 
 def level_cost(name: str, number: int) -> LevelCost:
     """Solve the finite elements' level `number` of a scene that comes along."""
-    from comparisons.common.progress import Stages, peak_memory, processor_seconds
+    from comparisons.common.progress import Stages, peak_memory
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.posing import problem_of
@@ -49,9 +49,9 @@ def level_cost(name: str, number: int) -> LevelCost:
 
     problem = problem_of(Scene.read(name))
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
-    begin = processor_seconds()
+    begin = harness.processor_seconds()
     level, *_ = finite_element_level(problem, refinement, Stages()).values()
-    seconds = processor_seconds() - begin
+    seconds = harness.processor_seconds() - begin
     unknowns = expected_unknowns(problem, refinement, level.patches), level.unknowns
     memory = level.expected_memory / 1e6, peak_memory() / 1e6
     return LevelCost(f"{name} {number}", unknowns, (level.expected_seconds, seconds), memory)

@@ -1,11 +1,13 @@
 """What programs share that measure the project: a process on one thread, tables and demands."""
 
 import os
+import resource
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from time import process_time
 from typing import NamedTuple, TypeVar
 
-from comparisons.common.progress import processor_seconds
+from meshes import build
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 Result = TypeVar("Result")
@@ -41,6 +43,18 @@ def run_on_one_thread(main: Callable[[], int]) -> None:
     if not ONE_THREAD.items() <= os.environ.items():
         os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], os.environ | ONE_THREAD)
     sys.exit(main())
+
+
+def mesh_seconds() -> float:
+    """Processor seconds of the meshes so far by processes which wait for a task: the system counts
+    those of a process among its parent's children when it has ended."""
+    return sum(worker.seconds for worker in build.idle)
+
+
+def processor_seconds() -> float:
+    """Of this process, of those that it has started and that have ended, and of gmsh's meshes."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return process_time() + children.ru_utime + children.ru_stime + mesh_seconds()
 
 
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:

@@ -87,11 +87,6 @@ class ThermalMaterial:
         """kappa = k / (rho c) [m^2/s]."""
         return self.conductivity / (self.density * self.specific_heat)
 
-    @property
-    def effusivity(self) -> float:
-        """sqrt(k rho c) [W s^0.5/(m^2 K)]."""
-        return float(np.sqrt(self.conductivity * self.density * self.specific_heat))
-
 
 def combined_modulus(first: Material | None, second: Material | None) -> float:
     """E* [Pa] of two bodies, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 (Johnson 1985, eq. 4.18).

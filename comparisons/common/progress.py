@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from time import perf_counter, process_time
+from time import perf_counter
 
 ProgressCallback = Callable[[str], None]
 
@@ -18,14 +18,6 @@ def peak_memory() -> int:
         return 1024 * kilobytes
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return kilobytes * (1 if sys.platform == "darwin" else 1024)
-
-
-def processor_seconds() -> float:
-    """Of this process, of those that it has started and that have ended, and of gmsh's meshes."""
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    building = sys.modules.get("meshes.build")
-    meshes = building.mesh_seconds() if building else 0.0
-    return process_time() + children.ru_utime + children.ru_stime + meshes
 
 
 def machine_memory() -> float:

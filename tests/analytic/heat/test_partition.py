@@ -42,7 +42,8 @@ def test_bodies_of_equal_peclet_number_share_by_conductivity(other):
 def test_fast_unlike_bodies_share_by_effusivity_and_speed():
     speeds = 2e3, 5e2
     heat = divided(surface(STEEL, speeds[0]), surface(COPPER, speeds[1]), HEAT)
-    sizes = [m.effusivity * np.sqrt(v) for m, v in zip((STEEL, COPPER), speeds, strict=True)]
+    effusive = [np.sqrt(m.conductivity * m.density * m.specific_heat) for m in (STEEL, COPPER)]
+    sizes = np.multiply(effusive, np.sqrt(speeds))
     assert heat.fraction == pytest.approx(sizes[0] / sum(sizes), rel=2e-3)
 
 
