@@ -18,8 +18,12 @@ MODELS = ("half_plane", "finite_element")
 HYPHENATED = {"half_plane": "half-plane", "finite_element": "finite-element"}  # the … model
 WHOLE = "whole"  # model: the finite elements with every effect that matters
 USUAL = 0.02  # relative tolerance of a scene that gives none
-LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
-LABELS["operators"] = "layered half-plane"  # of scenes with a layer or a coating
+LABELS = {
+    "half_plane": "half-plane",
+    "operators": "layered half-plane",  # of scenes with a layer or a coating
+    "finite_element": "finite elements",
+    WHOLE: "whole model",
+}
 
 
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
