@@ -50,7 +50,7 @@ from pathlib import Path
 # By name, the module that has it.
 PUBLIC = {
     "Scene": "comparisons.scenes.scene",
-    **dict.fromkeys(("compare", "cost", "map", "read", "run", "sweep"), "comparisons.notebook"),
+    **dict.fromkeys(("compare", "cost", "map", "read", "run", "sweep"), "comparisons.api"),
 }
 __all__ = list(PUBLIC)
 ROOT = str(Path(__file__).resolve().parents[1])

@@ -37,7 +37,7 @@ ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "heat nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands examples notebook campaigns runs output studies judging drawing "
+    "comparisons": "cli commands examples api campaigns runs output studies judging drawing "
     "models scenes figures common",
 }
 MOST_ENTRIES = 16  # of a folder

@@ -7,13 +7,13 @@ import pytest
 from pydantic.fields import FieldInfo
 from scenes import PROJECT, page_rows
 
+from comparisons.api import run
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import SHARE_OF_TOLERANCE
 from comparisons.judging.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.notebook import run
 from comparisons.scenes.fields import allowed, file_fields
 from comparisons.scenes.finite_element import BLOCK
 from comparisons.scenes.profile import COMMON, VARIETIES

@@ -23,8 +23,8 @@ import math
 from typing import NamedTuple
 
 import comparisons as crosscheck
+from comparisons.api import scene_of
 from comparisons.figures.figure import Figures
-from comparisons.notebook import scene_of
 from tests.finite_strain_check import cases
 from tests.harness import Demand, print_demands, print_table
 

@@ -8,7 +8,7 @@ import pytest
 from scenes import finite_elements, problem
 
 import comparisons as crosscheck
-from comparisons.notebook import scene_of
+from comparisons.api import scene_of
 from comparisons.scenes.materials import solids
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair

@@ -11,12 +11,12 @@ import pytest
 import scenes
 
 import comparisons as crosscheck
+from comparisons.api import scene_of
 from comparisons.campaigns.decks.problem import deck_problem
 from comparisons.campaigns.decks.write import write_deck
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.models.posing import problem_of
-from comparisons.notebook import scene_of
 
 KNOWN = {  # keywords of CalculiX that a deck may use
     *("HEADING", "INCLUDE", "NODE", "ELEMENT", "NSET", "SURFACE", "EQUATION", "MATERIAL"),

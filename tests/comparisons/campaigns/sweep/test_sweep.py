@@ -11,6 +11,7 @@ from rich.console import Console
 from scenes import STEEL
 
 import comparisons as crosscheck
+from comparisons.api import scene_of
 from comparisons.campaigns.sweep.pictures import sweep_figure, zone_map_figure
 from comparisons.campaigns.sweep.show import sweep_table, warnings_of
 from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
@@ -19,7 +20,6 @@ from comparisons.common.errors import InputError, SolverError
 from comparisons.common.tasks import Tasks
 from comparisons.drawing import style
 from comparisons.models.posing import problem_of
-from comparisons.notebook import scene_of
 
 WAVES = {
     "roller": {"radius": 8e-3, "rigid": True},

@@ -10,11 +10,11 @@ import pytest
 from scenes import STEEL, as_toml, without_cost
 
 import comparisons as crosscheck
+from comparisons.api import FinishedRun, Map, scene_of
 from comparisons.campaigns.maps.map import finished_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import models_named
-from comparisons.notebook import FinishedRun, Map, scene_of
 from comparisons.scenes.surface import surface_of
 
 SMALL = {
@@ -240,7 +240,7 @@ def test_examples_run(tmp_path, monkeypatch, pyplot):
     monkeypatch.chdir(tmp_path)
     results = [
         doctest.testmod(importlib.import_module(name), extraglobs={"crosscheck": crosscheck})
-        for name in ("comparisons", "comparisons.notebook")
+        for name in ("comparisons", "comparisons.api")
     ]
     assert all(result.attempted > 8 and result.failed == 0 for result in results)
     assert list(tmp_path.iterdir()) == []
