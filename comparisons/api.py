@@ -237,12 +237,12 @@ class Map(Printed):
 
     def plot(self) -> "list[Axes]":
         """The map."""
-        from comparisons.campaigns.maps.picture import map_figure
+        from comparisons.grid.map_picture import map_figure
 
         return _drawn(map_figure, self.content)
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.maps.map import map_table
+        from comparisons.grid.map import map_table
 
         return map_table(self.content, self.folder)
 
@@ -266,12 +266,12 @@ class Sweep(Printed):
 
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
-        from comparisons.campaigns.sweep.pictures import sweep_figure
+        from comparisons.grid.sweep_picture import sweep_figure
 
         return _drawn(sweep_figure, self.content)
 
     def _table(self) -> "RenderableType":
-        from comparisons.campaigns.sweep.show import sweep_table
+        from comparisons.grid.table import sweep_table
 
         return sweep_table(self.content, self.folder)
 
@@ -374,7 +374,7 @@ def map(
     x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
     workers  processes, one a core by default, or a Dask scheduler's address
     It takes minutes. `out` keeps each point, and goes on from there."""
-    from comparisons.campaigns.maps.map import make_map, request_of
+    from comparisons.grid.map import make_map, request_of
 
     scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
     texts = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
@@ -409,7 +409,7 @@ def sweep(
     >>> peaks = [row["value"] for row in contact if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
-    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request
+    from comparisons.grid.sweep import make_sweep, sweep_request
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]

@@ -37,7 +37,7 @@ ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "heat nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands examples api campaigns runs output studies judging drawing "
+    "comparisons": "cli commands examples api campaigns grid runs output studies judging drawing "
     "models scenes figures common",
 }
 MOST_ENTRIES = 16  # of a folder
@@ -111,8 +111,8 @@ def room(name: str) -> tuple[str, str]:
 
 
 def against_the_order(name: str, other: str) -> bool:
-    (package, here), (_, there) = room(name), room(other)
-    order = ROOMS.get(package, "").split()
+    (package, here), (others, there) = room(name), room(other)
+    order = ROOMS.get(package, "").split() if package == others else ()
     return here in order and there in order and order.index(there) < order.index(here)
 
 

@@ -65,13 +65,13 @@ def complete_scenes(incomplete: str) -> list[str]:
 
 def complete_maps(incomplete: str) -> list[str]:
     """The same with the names of finished maps."""
-    from comparisons.campaigns.maps.map import finished_names
+    from comparisons.grid.map import finished_names
 
     return [*_beginning(finished_names(), incomplete), *complete_scenes(incomplete)]
 
 
 def complete_groups(incomplete: str) -> list[str]:
-    from comparisons.campaigns.maps.groups import GROUPS
+    from comparisons.grid.groups import GROUPS
 
     return _beginning(GROUPS, incomplete)
 

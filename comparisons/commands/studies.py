@@ -88,8 +88,7 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
-    from comparisons.campaigns.grid import exit_status
-    from comparisons.campaigns.maps.map import (
+    from comparisons.grid.map import (
         SIZE,
         finished_map,
         finished_names,
@@ -98,7 +97,8 @@ def map_of(
         request_of,
         show_finished,
     )
-    from comparisons.campaigns.maps.mark import problem_named, unlike
+    from comparisons.grid.mark import problem_named, unlike
+    from comparisons.grid.points import exit_status
 
     marked = None if mark is None else problem_named(mark)
     solves = again or any(option is not None for option in (points, x, y, workers, settings))
@@ -137,10 +137,10 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve a scene at many places, loads or other values."""
-    from comparisons.campaigns.grid import exit_status
-    from comparisons.campaigns.sweep.show import sweep_table, warnings_of
-    from comparisons.campaigns.sweep.sweep import make_sweep, sweep_request
     from comparisons.figures.quantity import models_named
+    from comparisons.grid.points import exit_status
+    from comparisons.grid.sweep import make_sweep, sweep_request
+    from comparisons.grid.table import sweep_table, warnings_of
 
     chosen = models_named(models, "--models")
     request = sweep_request(scene_with(scene, settings), over, chosen)

@@ -11,10 +11,10 @@ from scenes import STEEL, as_toml, without_cost
 
 import comparisons as crosscheck
 from comparisons.api import FinishedRun, Map, scene_of
-from comparisons.campaigns.maps.map import finished_map
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import models_named
+from comparisons.grid.map import finished_map
 from comparisons.scenes.surface import surface_of
 
 SMALL = {

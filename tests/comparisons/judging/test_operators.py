@@ -9,9 +9,9 @@ import pytest
 from scenes import STEEL, exact_layer, half_plane_at, problem
 
 from analytic.exact.layers import TABLE
-from comparisons.campaigns.maps.groups import scene_with
-from comparisons.campaigns.maps.map import finished_map
 from comparisons.common.progress import Stages
+from comparisons.grid.groups import scene_with
+from comparisons.grid.map import finished_map
 from comparisons.judging.ladder.candidates import CANDIDATES, words_of
 from comparisons.models.analytic import CAP, analytic_level
 from comparisons.models.posing import problem_of

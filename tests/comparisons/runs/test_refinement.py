@@ -12,12 +12,12 @@ import pytest
 from scenes import SMOOTH, problem
 
 from comparisons.campaigns.cases import Trial, answers_of, carry_out
-from comparisons.campaigns.maps import map as map_of_groups
 from comparisons.common import provenance
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import no_progress
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
+from comparisons.grid import map as map_of_groups
 from comparisons.judging.study import unsolved
 from comparisons.models.analytic import analytic_level, expected_with
 from comparisons.models.finite_element import level
@@ -167,7 +167,7 @@ def keys() -> tuple[str, str]:
         ("comparisons/models/law.py", "levels map"),
         ("analytic/law.py", "levels map"),
         ("comparisons/studies/law.py", "levels map"),
-        ("comparisons/campaigns/maps/point.py", "map"),
+        ("comparisons/grid/map_point.py", "map"),
     ],
 )
 def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, place, loses):

@@ -6,8 +6,8 @@ import pytest
 from scenes import STEEL, finite_elements, half_plane_at, problem, resolved
 
 from analytic.material import Law
-from comparisons.campaigns.maps.groups import scene_with
-from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names
+from comparisons.grid.groups import scene_with
+from comparisons.grid.map import FINISHED, finished_map, finished_names
 from comparisons.judging.effects.catalogue import UNKNOWN, estimates
 from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.effects.laws import open_laws

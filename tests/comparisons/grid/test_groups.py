@@ -6,13 +6,13 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from analytic.exact.sliding import sliding_from_load
-from comparisons.campaigns.grid import FAILED, SOLVED, Point, answered
-from comparisons.campaigns.maps.groups import axis_of, counts_of, scene_with
-from comparisons.campaigns.maps.map import request_of
-from comparisons.campaigns.maps.point import is_open, solve_point
 from comparisons.common.errors import InputError, SceneError
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.grid.groups import axis_of, counts_of, scene_with
+from comparisons.grid.map import request_of
+from comparisons.grid.map_point import is_open, solve_point
+from comparisons.grid.points import FAILED, SOLVED, Point, answered
 from comparisons.models.posing import problem_of
 from comparisons.scenes.files import SCENES
 from comparisons.scenes.scene import Scene

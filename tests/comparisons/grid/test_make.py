@@ -9,13 +9,13 @@ from unittest.mock import patch
 
 import pytest
 
-from comparisons.campaigns.grid import exit_status, failed
-from comparisons.campaigns.maps.map import MAP, PICTURE, make_map, map_table, request_of
 from comparisons.cli import main
 from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, called
+from comparisons.grid.map import MAP, PICTURE, make_map, map_table, request_of
+from comparisons.grid.points import exit_status, failed
 
 SCENE = """
 title = "Small"
@@ -43,7 +43,7 @@ def made(scene, tmp_path_factory) -> tuple[Path, list[str]]:
     out = tmp_path_factory.mktemp("undisturbed") / "out"
     with (
         Tasks(ProcessWorker, 1, Cache(out / FOLDER, "", {})) as tasks,
-        patch("comparisons.campaigns.grid.tasks_by", lambda *_: nullcontext(tasks)),
+        patch("comparisons.grid.points.tasks_by", lambda *_: nullcontext(tasks)),
     ):
         make_map(request_of(str(scene), *ASKED[1::2]), out)
         tasks.kept = NO_CACHE
@@ -115,9 +115,9 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     def solve(point):
         return failed(f"no {point.at['poissons_ratio']}", is_wrong=True)
 
-    monkeypatch.setattr("comparisons.campaigns.maps.map.solve_point", solve)
+    monkeypatch.setattr("comparisons.grid.map.solve_point", solve)
     monkeypatch.setattr(
-        "comparisons.campaigns.grid.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
+        "comparisons.grid.points.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
     )
     content = make_map(request, tmp_path / "out")
     whys = [point["why"] for point in content["points"]]
@@ -139,7 +139,7 @@ def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys
     def asked(request, out, *more):
         raise InputError(str(out))
 
-    monkeypatch.setattr("comparisons.campaigns.maps.map.make_map", asked)
+    monkeypatch.setattr("comparisons.grid.map.make_map", asked)
     assert main(["map", str(scene), *ASKED]) == ExitStatus.BAD_INPUT
     assert capsys.readouterr().err == "crosscheck: results/small\n"
 

@@ -13,24 +13,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.campaigns.grid import FAILED, SOLVED, Point, failures, points_of, solved_in
-from comparisons.campaigns.maps.content import (
-    BELOW,
-    INCONCLUSIVE,
-    SIGNIFICANT,
-    points_within,
-    significance,
-)
-from comparisons.campaigns.maps.groups import (
-    Axis,
-    axis_of,
-    counts_of,
-    finite_elements,
-    scene_with,
-    usual_axes,
-)
-from comparisons.campaigns.maps.mark import mark_of
-from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.common.errors import InputError
 from comparisons.common.files import publish
 from comparisons.common.numbers import percent_as_written
@@ -38,6 +20,24 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
 from comparisons.drawing.style import svgs
 from comparisons.figures.quantity import QUANTITIES, label
+from comparisons.grid.content import (
+    BELOW,
+    INCONCLUSIVE,
+    SIGNIFICANT,
+    points_within,
+    significance,
+)
+from comparisons.grid.groups import (
+    Axis,
+    axis_of,
+    counts_of,
+    finite_elements,
+    scene_with,
+    usual_axes,
+)
+from comparisons.grid.map_point import TOLERANCES, solve_point
+from comparisons.grid.mark import mark_of
+from comparisons.grid.points import FAILED, SOLVED, Point, failures, points_of, solved_in
 from comparisons.models.problem import Problem
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene, with_settings
@@ -45,15 +45,15 @@ from comparisons.scenes.scene import Origin, Scene, with_settings
 if TYPE_CHECKING:
     from rich.text import Text
 
-    from comparisons.campaigns.maps.picture import Mark
+    from comparisons.grid.map_picture import Mark
 
 FILES = MAP, PICTURE = "map.json", "map.svg"
 SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
 # What shapes the answer at a point, beside versions of libraries.
-CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/campaigns/grid.py")
-CODE += tuple(f"comparisons/campaigns/maps/{n}" for n in ("groups.py", "groups.toml", "point.py"))
+CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/grid/points.py")
+CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_point.py"))
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,7 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
 
 
 def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
-    from comparisons.campaigns.maps.picture import map_figure
+    from comparisons.grid.map_picture import map_figure
 
     return {MAP: as_json(content), **svgs({PICTURE: lambda: map_figure(content, mark)})}
 

@@ -6,9 +6,9 @@ error of another scene with the same values is a guide alone."""
 from typing import TYPE_CHECKING
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.maps.groups import GROUPS, smooth_problem
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS, QUANTITIES
+from comparisons.grid.groups import GROUPS, smooth_problem
 from comparisons.models.problem import Problem
 from comparisons.runs.run import posed
 from comparisons.scenes.scene import Origin, Scene
@@ -17,7 +17,7 @@ from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
 if TYPE_CHECKING:
-    from comparisons.campaigns.maps.picture import Mark
+    from comparisons.grid.map_picture import Mark
 
 SAME_RATIO = 0.01  # of Poisson's ratios that count as one
 SAME_CURVATURE = 0.2  # relative, of a/R where a map has one for all its points

@@ -13,8 +13,6 @@ from pathlib import Path
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from comparisons.campaigns.grid import SOLVED, Point, Value, failures, points_of, solved_in
-from comparisons.campaigns.sweep.pictures import FRICTION, PICTURE, POSITION, ZONES, drawn
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text, publish
 from comparisons.common.numbers import is_whole
@@ -23,6 +21,8 @@ from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, ver
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
+from comparisons.grid.points import SOLVED, Point, Value, failures, points_of, solved_in
+from comparisons.grid.sweep_picture import FRICTION, PICTURE, POSITION, ZONES, drawn
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.posing import problem_of
@@ -45,7 +45,7 @@ ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/output")
-CODE += tuple(f"comparisons/campaigns/{name}.py" for name in ("grid", "sweep/sweep"))
+CODE += tuple(f"comparisons/grid/{name}.py" for name in ("points", "sweep"))
 NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
 

@@ -4,10 +4,10 @@ In: the content of map.json, whose points lie row by row, y outside, x inside.""
 
 import numpy as np
 
-from comparisons.campaigns.grid import SOLVED
-from comparisons.campaigns.maps.groups import GROUPS
-from comparisons.campaigns.maps.point import TOLERANCES
 from comparisons.figures.figure import judge
+from comparisons.grid.groups import GROUPS
+from comparisons.grid.map_point import TOLERANCES
+from comparisons.grid.points import SOLVED
 
 # What is known of the model error of the half-plane at a point.
 SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusive"

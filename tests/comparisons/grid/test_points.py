@@ -6,10 +6,10 @@ from functools import partial
 
 import pytest
 
-from comparisons.campaigns.grid import DIED, SOLVED, Point, failed, solved_in
 from comparisons.common.errors import SceneError
 from comparisons.common.executors import ExecutorWorker
 from comparisons.common.tasks import Tasks, carried_out
+from comparisons.grid.points import DIED, SOLVED, Point, failed, solved_in
 from comparisons.scenes.scene import Scene
 
 SCENE = Scene.read("smooth")
@@ -49,7 +49,7 @@ def solve_in(monkeypatch, tmp_path):
 
     def solve(points, opens=None, *why_not):
         solved, steps = Solved(), []
-        tasks = "comparisons.campaigns.grid.tasks_by"
+        tasks = "comparisons.grid.points.tasks_by"
         monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(opens, 2, kept)))
         points = [point if isinstance(point, Point) else point_at(point) for point in points]
         how = solved.solve, None, steps.append, *why_not

@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from comparisons.campaigns.grid import SOLVED, Point, failed
 from comparisons.common.tasks import Here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import MODELS
+from comparisons.grid.points import SOLVED, Point, failed
 from comparisons.judging.rule import judged, values_of
 from comparisons.models.level import Level, Solution
 from comparisons.models.model import Model, scene_model

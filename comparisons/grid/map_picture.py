@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.campaigns.grid import FAILED
-from comparisons.campaigns.maps.content import (
+from comparisons.drawing.style import figure
+from comparisons.figures.quantity import label
+from comparisons.grid.content import (
     BELOW,
     INCONCLUSIVE,
     SIGNIFICANT,
@@ -18,8 +19,7 @@ from comparisons.campaigns.maps.content import (
     places,
     scaled,
 )
-from comparisons.drawing.style import figure
-from comparisons.figures.quantity import label
+from comparisons.grid.points import FAILED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,11 +7,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.campaigns.grid import FAILED, failures
-from comparisons.campaigns.sweep.pictures import DRAWN, PICTURE, POSITION, ZONES, Axis, has_zones
-from comparisons.campaigns.sweep.sweep import SWEEP, TABLE
 from comparisons.common.numbers import percent, percent_as_written, with_unit
 from comparisons.figures.quantity import QUANTITIES, error_text
+from comparisons.grid.points import FAILED, failures
+from comparisons.grid.sweep import SWEEP, TABLE
+from comparisons.grid.sweep_picture import DRAWN, PICTURE, POSITION, ZONES, Axis, has_zones
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.judging.verdict.within import rounded_up

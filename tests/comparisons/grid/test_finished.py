@@ -6,16 +6,16 @@ from functools import cache
 
 import pytest
 
-from comparisons.campaigns.grid import FAILED, SOLVED
-from comparisons.campaigns.maps.groups import scene_with
-from comparisons.campaigns.maps.map import FINISHED, finished_map, finished_names, request_of
-from comparisons.campaigns.maps.mark import mark_of, problem_named, unlike
-from comparisons.campaigns.maps.picture import map_figure
-from comparisons.campaigns.maps.point import TOLERANCES, solve_point
 from comparisons.cli import main
 from comparisons.common.progress import no_progress
 from comparisons.common.provenance import versions
 from comparisons.drawing.style import svgs
+from comparisons.grid.groups import scene_with
+from comparisons.grid.map import FINISHED, finished_map, finished_names, request_of
+from comparisons.grid.map_picture import map_figure
+from comparisons.grid.map_point import TOLERANCES, solve_point
+from comparisons.grid.mark import mark_of, problem_named, unlike
+from comparisons.grid.points import FAILED, SOLVED
 from comparisons.models.finite_element.level import problem_of_approach
 from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Origin, Scene
@@ -134,7 +134,7 @@ def test_what_a_scene_differs_by_from_the_map_s(name, section, changes, why):
 
 
 def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.campaigns.maps.map.solved_in", None)
+    monkeypatch.setattr("comparisons.grid.map.solved_in", None)
     out = tmp_path / "map"
     asked = ["map", "curvature-thickness", "--quantity", "contact_length", "--out", str(out)]
     assert main([*asked, "--mark", pressed]) == 0
@@ -161,7 +161,7 @@ def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monke
     ],
 )
 def test_what_a_map_does_not_have_is_refused(arguments, said, tmp_path, complaint, monkeypatch):
-    monkeypatch.delattr("comparisons.campaigns.maps.map.solved_in")  # nothing is solved before
+    monkeypatch.delattr("comparisons.grid.map.solved_in")  # nothing is solved before
     assert said in complaint("map", *arguments, "--out", tmp_path / "map")
 
 

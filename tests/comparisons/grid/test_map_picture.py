@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from comparisons.campaigns.grid import FAILED, SOLVED
-from comparisons.campaigns.maps.content import (
+from comparisons.drawing.style import drawing, svgs
+from comparisons.grid.content import (
     BELOW,
     INCONCLUSIVE,
     SIGNIFICANT,
     points_within,
     significance,
 )
-from comparisons.campaigns.maps.groups import axis_of
-from comparisons.campaigns.maps.picture import map_figure
-from comparisons.drawing.style import drawing, svgs
+from comparisons.grid.groups import axis_of
+from comparisons.grid.map_picture import map_figure
+from comparisons.grid.points import FAILED, SOLVED
 
 
 def map_of(error, uncertainty: float = 1e-4) -> dict:

@@ -12,13 +12,13 @@ from scenes import STEEL
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
-from comparisons.campaigns.sweep.pictures import sweep_figure, zone_map_figure
-from comparisons.campaigns.sweep.show import sweep_table, warnings_of
-from comparisons.campaigns.sweep.sweep import MARGIN, scatter, sweep_request
 from comparisons.cli import main
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.tasks import Tasks
 from comparisons.drawing import style
+from comparisons.grid.sweep import MARGIN, scatter, sweep_request
+from comparisons.grid.sweep_picture import sweep_figure, zone_map_figure
+from comparisons.grid.table import sweep_table, warnings_of
 from comparisons.models.posing import problem_of
 
 WAVES = {
@@ -218,7 +218,7 @@ def test_the_command_leaves_table_picture_and_json(made, monkeypatch, capsys):
 def test_a_wrong_value_after_a_right_one_solves_and_writes_nothing(
     made, tmp_path, complaint, monkeypatch, over, said
 ):
-    monkeypatch.setattr("comparisons.campaigns.grid.called", None)
+    monkeypatch.setattr("comparisons.grid.points.called", None)
     line = complaint("sweep", made[1][1], "--over", over, "--out", tmp_path / "out")
     assert said in line and over.rpartition(",")[2] in line
 
@@ -229,10 +229,10 @@ def test_points_that_fail_are_told_with_the_status_of_solvers(made, tmp_path, ca
             raise SolverError("no luck")
         return {"status": "solved", "rows": ()}
 
-    tasks = "comparisons.campaigns.grid.tasks_by"
+    tasks = "comparisons.grid.points.tasks_by"
     monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
-    monkeypatch.setattr("comparisons.campaigns.sweep.sweep.drawn", lambda _: {})
-    monkeypatch.setattr("comparisons.campaigns.sweep.sweep.solved", solved)
+    monkeypatch.setattr("comparisons.grid.sweep.drawn", lambda _: {})
+    monkeypatch.setattr("comparisons.grid.sweep.solved", solved)
     assert main([*made[1][:3], str(tmp_path / "out"), *made[1][4:]]) == 3
     assert "2 failed\nfailed, 2: no luck" in capsys.readouterr().out
 

@@ -1,1 +1,0 @@
-"""Where the half-plane holds: its model error over two dimensionless groups."""
