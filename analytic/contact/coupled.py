@@ -34,7 +34,7 @@ from analytic.contact.problem import (
     common_gap,
     solve_contact,
 )
-from analytic.operators.tangential import CoupledOperator
+from analytic.operators.half_plane import ModelOperator
 
 TIGHT = 1e-10  # error of accurate pressures, in the 2-norm
 SPAN = 60  # directions at most; rough contacts were seen to take up to 25
@@ -126,24 +126,24 @@ SHORTEST = 1e-10  # a contraction step this small, relative in the norm of N, is
 
 
 def solve_coupled(
-    operator: CoupledOperator,
+    operator: ModelOperator,
     weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
 ) -> ContactSolution:
-    """Solve the contact problem of this module; residuals are those of the coupled operator.
+    """Solve the contact problem of this module; residuals are those of the operator itself.
 
     weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
     start    pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them,
              which costs less than the way from the uncoupled solution
 
-    An operator without a skew part is left to `solve_contact`. `iterations` counts set exchanges,
+    An operator that is not `skew` is left to `solve_contact`. `iterations` counts set exchanges,
     applications of C and contraction steps, on all grids together.
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
     KKT_TOLERANCE is returned with `converged` False."""
     if not operator.skew:
-        return solve_contact(operator.normal, weighted_gap, weights, constraints, start)
+        return solve_contact(operator, weighted_gap, weights, constraints, start)
     check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0, "contractions": 0}
     common, constraints = common_gap(weighted_gap, weights, constraints)

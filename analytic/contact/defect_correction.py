@@ -24,13 +24,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import SET_TOLERANCE, Constraints
 from analytic.contact.problem import (
     KKT_TOLERANCE,
     ContactSolution,
     assessed,
     common_gap,
-    solve_contact,
 )
 from analytic.operators.half_plane import ComplianceOperator, HalfPlane, ModelOperator
 
@@ -48,7 +48,6 @@ def solve_with_model(
     constraints: Constraints,
     start: np.ndarray | None = None,
     tolerance: float = KKT_TOLERANCE,
-    solver: Callable[..., ContactSolution] = solve_contact,
     nearer: bool = False,
     bearing: Callable[[np.ndarray], float] | None = None,
 ) -> ContactSolution:
@@ -57,8 +56,6 @@ def solve_with_model(
     operator      C: its symmetric part must be positive definite, nothing else
     weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
     start         pressures (n,) [Pa] of a nearby problem
-    solver        of the model's problem: `solve_contact`, or `solve_coupled` where sliding traction
-                  moves the surfaces and the model is a `CoupledOperator`
     nearer        whether `start` is nearer to the solution than what the model alone predicts: r
                   begins with (C - D) start
     bearing       load [N/m] that pressures (n,) [Pa] are to have once `operator` was applied to
@@ -85,7 +82,7 @@ def solve_with_model(
         if bearing is not None:
             constraints = replace(constraints, load=bearing(start))
     for step in range(1, MAX_STEPS + 1):
-        trial = solver(model, weighted_gap + carried, weights, constraints, pressure)
+        trial = solve_coupled(model, weighted_gap + carried, weights, constraints, pressure)
         model_applications += 1 + trial.iterations["applications"]
         pressure = trial.pressure
         weighted_displacement = operator.apply(pressure)

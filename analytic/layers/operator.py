@@ -62,8 +62,8 @@ class TangentialLayer(Convolution):
         scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
         column = scale * hat_coupling(count, pitch / body.thickness, body.contrast)
         column[0] = 0.0  # odd, but for rounding
-        # no inverse to approximate
-        super().__init__(column, lambda cycles: np.full(len(cycles), np.inf), row=-column)
+        # no inverse needs it: waves of a thin layer have none that is near a half-plane's
+        super().__init__(column, np.zeros_like, row=-column)
 
 
 def _spread(body: LayeredBody) -> float:

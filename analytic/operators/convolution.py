@@ -47,6 +47,8 @@ class Convolution:
     ring      nodes of the closed line on which `precondition` works: n where periodic, else more
     inverse_symbol  (ring // 2 + 1,) 1/S [Pa/m^2]"""
 
+    skew = False  # as of `analytic.operators.half_plane.ModelOperator`
+
     def __init__(
         self,
         column: np.ndarray,

@@ -37,6 +37,7 @@ class ModelOperator(ComplianceOperator, Protocol):
 
     count         nodes
     periodic      whether the grid closes on itself: node `count` is node 0
+    skew          whether it has a part that is not symmetric; then `normal` is the one that is
     ring          nodes of the closed line that `precondition` takes displacements on;
                   None where it takes those of the grid
     precondition  a positive definite approximation of the inverse
@@ -48,6 +49,7 @@ class ModelOperator(ComplianceOperator, Protocol):
 
     count: int
     periodic: bool
+    skew: bool
     ring: int | None
 
     def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray: ...
@@ -125,8 +127,7 @@ class SumOfConvolutions(Convolution):
     def __init__(self, *bodies: Convolution) -> None:
         if len({(body.count, body.periodic) for body in bodies}) != 1:
             raise ValueError("bodies to be added must have the same elements")
-        self.bodies = bodies
-        periodic = bodies[0].periodic
+        self.bodies, self.pitch, periodic = bodies, bodies[0].pitch, bodies[0].periodic
         super().__init__(
             sum(body.column for body in bodies),
             None if periodic else lambda cycles: sum(body.symbol(cycles) for body in bodies),
@@ -144,7 +145,7 @@ class SumOfConvolutions(Convolution):
 class DenseMatrix:
     """A compliance given as its matrix (n, n) [m^2/Pa]."""
 
-    periodic = False
+    periodic = skew = False
     ring = None
 
     def __init__(self, matrix: np.ndarray) -> None:

@@ -20,7 +20,6 @@ not symmetric but positive definite as before, and its contact problem has exact
 
 import warnings
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 import scipy.linalg
@@ -29,19 +28,7 @@ from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.material import Material
 from analytic.operators.convolution import DIRECT, Convolution, made_once
-from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane, ModelOperator
-
-
-class CoupledOperator(ModelOperator, Protocol):
-    """A compliance that is not symmetric: the surfaces under pressures and what they drag along.
-
-    normal  its symmetric part, positive definite
-    skew    whether there is anything beside it"""
-
-    normal: ModelOperator
-    skew: bool
-
-    def coarsened(self) -> "CoupledOperator | None": ...
+from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane
 
 
 def hat_sign(offset: ArrayLike) -> np.ndarray:
@@ -55,74 +42,53 @@ def hat_sign(offset: ArrayLike) -> np.ndarray:
     return np.sign(offset) * np.where(x < 1.0, near, far)
 
 
-class CoupledConvolution(Convolution):
-    """A convolution that is not symmetric; `skew` and `normal` as of `CoupledOperator`."""
+class TangentialHalfPlane(Convolution):
+    """T of half-planes, hat tractions (n,) [Pa] in +x to weighted displacements (n,) [m^2].
 
-    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """As of `Convolution`, by elimination."""
-        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
+    count       number of elements      pitch    h [m]
+    compliance  [1/Pa] beta / E*; `tangential_compliance` of one half-plane alone"""
 
-
-class CoupledHalfPlane(CoupledConvolution):
-    """C + mu T of two half-planes in one convolution: an application costs what C alone does.
-
-    count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`
-    friction_dundurs  mu beta, positive for sliding traction on the body in +x
-    normal            C alone"""
-
-    def __init__(
-        self,
-        count: int,
-        pitch: float,
-        modulus: float,
-        friction_dundurs: float,
-        datum: float | None = None,
-    ) -> None:
-        self.pitch, self.modulus, self.friction_dundurs = pitch, modulus, friction_dundurs
-        self.datum = (count + 1) * pitch if datum is None else datum
-        self.arguments, self.skew = (modulus, friction_dundurs, self.datum), friction_dundurs != 0.0
-        self.normal = HalfPlane(count, pitch, modulus, self.datum)
-        even = self.normal.column
-        odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
-        super().__init__(even + odd, self._symbol, row=even - odd)
+    def __init__(self, count: int, pitch: float, compliance: float) -> None:
+        self.pitch, self.arguments, self._compliance = pitch, (compliance,), compliance
+        column = compliance * pitch**2 * hat_sign(np.arange(count))
+        super().__init__(column, self._symbol, row=-column)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
-        """2/(E*|k|) (1 - i mu beta sign k) seen through two hats, with the nearest aliases."""
-        c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
-        seen = (np.sin(np.pi * c) / np.pi) ** 4
-        even = seen * (c**-5 + (1.0 - c) ** -5 + (1.0 + c) ** -5)
-        odd = seen * (c**-5 - (1.0 - c) ** -5 + (1.0 + c) ** -5)
-        return self.pitch**2 / (np.pi * self.modulus) * (even - 1j * self.friction_dundurs * odd)
+        """-2i/k beta/E* seen through two hats, with the nearest aliases."""
+        c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any value
+        seen = (np.sin(np.pi * c) / np.pi) ** 4 * (c**-5 - (1.0 - c) ** -5 + (1.0 + c) ** -5)
+        return self.pitch**2 / np.pi * self._compliance * (-1j * seen)
 
 
-class TangentialHalfPlane(Convolution):
-    """T of one half-plane, hat tractions (n,) [Pa] in +x to weighted displacements (n,) [m^2].
-
-    count     number of elements      pitch    h [m]
-    material  of the half-plane
-    sign      1.0 of the body; -1.0 of the roller, which takes the traction's other side"""
-
-    def __init__(self, count: int, pitch: float, material: Material, sign: float = 1.0) -> None:
-        self.pitch, self.arguments = pitch, (material, sign)
-        nu = material.poissons_ratio
-        moves = sign * (1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * material.youngs_modulus)
-        column = moves * pitch**2 * hat_sign(np.arange(count))
-        # no inverse to approximate
-        super().__init__(column, lambda cycles: np.full(len(cycles), np.inf), row=-column)
+def tangential_compliance(material: Material) -> float:
+    """beta / E* [1/Pa] of one half-plane under a traction on it in +x."""
+    nu = material.poissons_ratio
+    return (1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * material.youngs_modulus)
 
 
-class CoupledPair(CoupledConvolution):
-    """C + mu T of two convolutions on the same grid; the approximate inverse is that of C.
+class CoupledPair(Convolution):
+    """C + mu T of two convolutions on the same grid, in one: an application costs what C alone
+    does.
 
     normal      C, symmetric positive definite
     tangential  T: normal displacement under hats of traction q in +x, skew
-    friction    mu"""
+    friction    mu, positive for sliding traction on the body in +x"""
 
     def __init__(self, normal: Convolution, tangential: Convolution, friction: float) -> None:
         self.normal, self.tangential, self.friction = normal, tangential, friction
-        self.skew = friction != 0.0
         odd = friction * tangential.column
-        super().__init__(normal.column + odd, normal.symbol, row=normal.column - odd)
+        self.pitch, self.skew = normal.pitch, bool(odd.any())
+        row = normal.column - odd if self.skew else None
+        super().__init__(normal.column + odd, self._symbol, row)
+
+    def _symbol(self, cycles: np.ndarray) -> np.ndarray:
+        return self.normal.symbol(cycles) + self.friction * self.tangential.symbol(cycles)
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """As of `Convolution`, by elimination."""
+        if not self.skew:
+            return super().solve(nodes, right)
+        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
 
     @made_once
     def coarsened(self) -> "CoupledPair | None":
@@ -131,6 +97,15 @@ class CoupledPair(CoupledConvolution):
         if normal is None or tangential is None:
             return None
         return CoupledPair(normal, tangential, self.friction)
+
+
+def coupled_half_planes(
+    count: int, pitch: float, modulus: float, friction_dundurs: float, datum: float | None = None
+) -> CoupledPair:
+    """Two half-planes; count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`,
+    `friction_dundurs` is mu beta."""
+    normal = HalfPlane(count, pitch, modulus, datum)
+    return CoupledPair(normal, TangentialHalfPlane(count, pitch, friction_dundurs / modulus), 1.0)
 
 
 def eliminated(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ from functools import partial, reduce
 
 import numpy as np
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.deformed_surface import DeformedContact
 from analytic.contact.end_stress import EndStress
 from analytic.contact.problem import ContactSolution
@@ -31,7 +32,6 @@ from comparisons.models.operators import (
     operator_of,
     patches_of,
     pressed_on,
-    solve_on,
 )
 from comparisons.models.problem import COUPLED, TABOR, Problem
 from comparisons.models.readings import beside_hats, field_on
@@ -129,7 +129,7 @@ def _pressed(problem: Problem, effects: frozenset[str], grid: HatGrid) -> Contac
     bodies = scene.body.material, scene.roller.material, height, sagitta
     deformed = DeformedContact(grid, *bodies, problem.knots)
     how = grid.weights, problem.constraints()
-    return deformed.pressed(lambda gap, start: solve_on(operator, gap, *how, start), solution)
+    return deformed.pressed(lambda gap, start: solve_coupled(operator, gap, *how, start), solution)
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,10 @@ pressures of the crest make of it on a half-plane: so any elastic model of it wi
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from comparisons.models.operators import LAYERS, half_planes, solve_on
+from comparisons.models.operators import LAYERS, half_planes
 from comparisons.models.problem import Problem
 
 REACH, FINER = 32, 4  # elements to each side of a crest's highest pressure; theirs to a coarser one
@@ -89,4 +90,4 @@ def _refined(
     gap = beside(fine.x) - wider * beside(fine.x, 2)
     gap = fine.hat_integrals(problem.gap, problem.knots) + gap * fine.weights
     constraints = problem.constraints(load=float(pressure @ coarse.weights))
-    return fine, solve_on(half_planes(problem, fine, effects), gap, fine.weights, constraints)
+    return fine, solve_coupled(half_planes(problem, fine, effects), gap, fine.weights, constraints)

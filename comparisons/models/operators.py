@@ -10,7 +10,7 @@ import numpy as np
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface, TangentialLayer
@@ -18,7 +18,12 @@ from analytic.material import Material, combined_modulus
 from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
 from analytic.operators.periodic import PeriodicHalfPlane
-from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, TangentialHalfPlane
+from analytic.operators.tangential import (
+    CoupledPair,
+    TangentialHalfPlane,
+    coupled_half_planes,
+    tangential_compliance,
+)
 from comparisons.models.problem import COUPLED, Problem
 from comparisons.scenes.scene import Scene
 
@@ -78,8 +83,9 @@ def operator_of(
     if not friction:
         return normal
     moved = TangentialLayer(*size, body)
-    if roller is not None and roller_moves:
-        moved = SumOfConvolutions(moved, TangentialHalfPlane(*size, roller, -1.0))
+    if roller is not None and roller_moves:  # which takes the traction's other side
+        drawn = TangentialHalfPlane(*size, -tangential_compliance(roller))
+        moved = SumOfConvolutions(moved, drawn)
     return CoupledPair(normal, moved, friction)
 
 
@@ -94,7 +100,7 @@ def half_planes(
         return PeriodicHalfPlane(*size, modulus)
     if not friction:
         return HalfPlane(*size, modulus)
-    return CoupledHalfPlane(*size, modulus, friction * problem.dundurs_beta)
+    return coupled_half_planes(*size, modulus, friction * problem.dundurs_beta)
 
 
 def pressed_on(
@@ -107,19 +113,8 @@ def pressed_on(
     """The contact of a problem on an analytic operator; by default under its own constraints and
     gap."""
     weighted_gap = grid.hat_integrals(gap or problem.gap, problem.knots)
-    return solve_on(operator, weighted_gap, grid.weights, constraints or problem.constraints())
-
-
-def solve_on(
-    operator: ModelOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    start: np.ndarray | None = None,
-) -> ContactSolution:
-    """As `analytic.contact.problem.solve_contact`, also for operators that traction couples."""
-    solve = solve_coupled if hasattr(operator, "skew") else solve_contact
-    return solve(operator, gap, weights, constraints, start)
+    limits = constraints or problem.constraints()
+    return solve_coupled(operator, weighted_gap, grid.weights, limits)
 
 
 def patches_of(grid: HatGrid, solution: ContactSolution) -> np.ndarray:

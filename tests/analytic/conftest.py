@@ -11,7 +11,7 @@ from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import coupled_half_planes
 
 Gap = Callable[[np.ndarray], np.ndarray]
 
@@ -62,7 +62,7 @@ class Roller:
     ) -> ContactSolution:
         """The same while it slides, with friction times Dundurs' beta."""
         return solve_coupled(
-            CoupledHalfPlane(grid.count, grid.pitch, self.modulus, friction_dundurs),
+            coupled_half_planes(grid.count, grid.pitch, self.modulus, friction_dundurs),
             grid.hat_integrals(gap),
             grid.weights,
             constraints or Constraints(load=self.load),

@@ -20,7 +20,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import coupled_half_planes
 from analytic.surface.synthetic import self_affine
 from comparisons.campaigns.cases import CaseFigures, bounded, relative_error
 from comparisons.campaigns.robustness.measures import (
@@ -181,7 +181,7 @@ def sliding_figures(
     exact = sliding_from_load(SLIDING_LOAD, SLIDING_RADIUS, modulus, friction, beta)
     count = 2 * int(2.2 * HATS_PER_HALF_WIDTH) + 1
     pitch = exact.half_width / HATS_PER_HALF_WIDTH
-    operator = CoupledHalfPlane(count, pitch, modulus, friction * beta)
+    operator = coupled_half_planes(count, pitch, modulus, friction * beta)
     contact = load_cylinder(operator, SLIDING_RADIUS, Constraints(load=SLIDING_LOAD))
     (left, right), size = exact.edges, exact.half_width
     (start, stop), *_ = contact.patches
@@ -198,7 +198,7 @@ def sliding_figures(
 
 
 def sliding_line_figures(friction_dundurs: float) -> CaseFigures:
-    operator = CoupledHalfPlane(LINE_COUNT, 1.0, 1.0, friction_dundurs)
+    operator = coupled_half_planes(LINE_COUNT, 1.0, 1.0, friction_dundurs)
     contact = load_line(operator, rough(LINE_COUNT), Constraints(load=LOAD))
     return contact.figures(dense_violation(contact, 1.0, friction_dundurs))
 

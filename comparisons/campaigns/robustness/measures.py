@@ -8,6 +8,7 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.optimize import lsq_linear
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
@@ -24,7 +25,6 @@ from comparisons.campaigns.cases import (
 )
 from comparisons.figures.figure import Figure
 from comparisons.models.level import Level
-from comparisons.models.operators import solve_on
 
 MOST_APPLICATIONS = 300  # of the operator, in one contact
 MOST_TIMES = 10.0  # the applications of the ordinary contact on as many nodes
@@ -85,7 +85,7 @@ def load_contact(
     operator: ModelOperator, x: np.ndarray, weighted_gap: np.ndarray, constraints: Constraints
 ) -> LoadedContact:
     weights = np.full(operator.count, operator.pitch)
-    solution = solve_on(operator, weighted_gap, weights, constraints)
+    solution = solve_coupled(operator, weighted_gap, weights, constraints)
     return LoadedContact(x, weighted_gap, operator, constraints, solution)
 
 

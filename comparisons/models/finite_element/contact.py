@@ -7,7 +7,7 @@ import numpy as np
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
@@ -15,7 +15,6 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.operators import solve_on
 from comparisons.models.problem import Problem
 from fem.compliance.operator import FiniteElementCompliance
 
@@ -122,12 +121,10 @@ class SmallStrainContact:
         settle."""
         operator = mutual_compliance(self.problem, bodies, self.grid)
         weights, constraints = self.grid.weights, self.constraints
-        solver, dense = solve_contact, DenseCompliance
-        if operator.coupled:
-            solver, dense = solve_coupled, DenseCoupledCompliance
         posed = operator, self.model, self.gap, weights, constraints, self.solution.pressure
-        solution = solve_with_model(*posed, tolerance, solver=solver)
+        solution = solve_with_model(*posed, tolerance)
         if not solution.converged and len(weights) <= MOST_DENSE:
+            dense = DenseCoupledCompliance if operator.coupled else DenseCompliance
             whole = dense(operator.matrix())
-            solution = solve_on(whole, self.gap, weights, constraints, solution.pressure)
+            solution = solve_coupled(whole, self.gap, weights, constraints, solution.pressure)
         return replace(self, solution=solution, bodies=bodies, operator=operator)

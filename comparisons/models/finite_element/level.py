@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
@@ -21,7 +22,7 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
 from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
-from comparisons.models.operators import LAYERS, operator_of, solve_on
+from comparisons.models.operators import LAYERS, operator_of
 from comparisons.models.posing import settled
 from comparisons.models.problem import COUPLED, Levels, Problem
 from comparisons.scenes.scene import Scene
@@ -106,7 +107,7 @@ def _predicted(problem: Problem, pitch: float, approach: float | None) -> SmallS
         constraints = replace(constraints, hardness=np.inf)
     if approach is not None:
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
-    solution = solve_on(model, gap, grid.weights, problem.widest)
+    solution = solve_coupled(model, gap, grid.weights, problem.widest)
     return SmallStrainContact(problem, grid, gap, constraints, model, solution)
 
 

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import assessed, solve_contact
+from analytic.contact.problem import assessed
 from comparisons.models.finite_element.contact import SmallStrainContact
 from comparisons.models.finite_element.roller import is_disc, roller_of
 from comparisons.models.finite_element.stress import LoadedBody
@@ -171,11 +170,8 @@ def finite_contact(linear: SmallStrainContact) -> FiniteDeformation:
         return load * float(contact.weights @ pressure) / bodies.borne
 
     posed = bodies, linear.model, contact.gap, contact.weights, constraints, start
-    solver = solve_coupled if linear.operator.coupled else solve_contact
     try:
-        solution = solve_with_model(
-            *posed, FINITE_TOLERANCE, solver, nearer=True, bearing=load and bearing
-        )
+        solution = solve_with_model(*posed, FINITE_TOLERANCE, nearer=True, bearing=load and bearing)
         if solution.converged:
             return contact.deformed(bodies.solution(solution.pressure, solution.approach))
     except FemError:

@@ -20,7 +20,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
+from analytic.operators.tangential import CoupledPair, coupled_half_planes, hat_sign
 
 PAIRS = [(0.1, 2 / 7), (0.3, 2 / 7), (0.5, 2 / 7), (0.3, 0.1), (0.5, 0.5)]  # mu, beta
 
@@ -119,7 +119,7 @@ class TestSymmetries:
         length, stiffness = 1e-7, 1e4
         small = HatGrid(grid.pitch * length, grid.first, grid.last)
         other = solve_coupled(
-            CoupledHalfPlane(small.count, small.pitch, roller.modulus * stiffness, 0.3),
+            coupled_half_planes(small.count, small.pitch, roller.modulus * stiffness, 0.3),
             grid.hat_integrals(gap) * length**2,
             small.weights,
             Constraints(load=roller.load * stiffness * length),

@@ -15,7 +15,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import DenseMatrix, HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
+from analytic.operators.tangential import CoupledPair, coupled_half_planes
 from analytic.surface.synthetic import self_affine
 
 RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 1.0e6
@@ -180,14 +180,14 @@ def rough_gap(seed: int) -> np.ndarray:
     return GRID.hat_integrals(lambda x: roller_gap(RADIUS)(x) - curve(x))
 
 
-def sliding(friction_dundurs: float, modulus: float = MODULUS) -> CoupledHalfPlane:
-    return CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction_dundurs)
+def sliding(friction_dundurs: float, modulus: float = MODULUS) -> CoupledPair:
+    return coupled_half_planes(GRID.count, GRID.pitch, modulus, friction_dundurs)
 
 
 def dragged(operator, model, gap: np.ndarray, constraints=LIGHT) -> ContactSolution:
     """The sliding contact with a coupled model."""
     weights = GRID.weights
-    return solve_with_model(operator, model, gap, weights, constraints, solver=solve_coupled)
+    return solve_with_model(operator, model, gap, weights, constraints)
 
 
 def misses(operator, result, gap: np.ndarray, constraints: Constraints) -> float:

@@ -18,7 +18,7 @@ from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import coupled_half_planes
 from analytic.stress.points import stress_at
 
 CASES = {case.name: case for case in exact_contacts()}
@@ -87,7 +87,7 @@ def solved(
         solution = solve_contact(PeriodicHalfPlane(*size), *problem)
     elif case.coupled:
         solution = solve_coupled(
-            CoupledHalfPlane(*size, case.friction * case.dundurs_beta), *problem
+            coupled_half_planes(*size, case.friction * case.dundurs_beta), *problem
         )
     else:
         solution = solve_contact(HalfPlane(*size), *problem)

@@ -11,7 +11,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface, TangentialLayer
-from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
+from analytic.operators.tangential import CoupledPair, coupled_half_planes, hat_sign
 
 
 @pytest.mark.parametrize("pitch", [1e-6, 0.01, 1.0, 10.0])
@@ -75,7 +75,7 @@ def test_sliding_contact_on_a_thick_layer_shifts_as_on_a_half_plane(base):
     normal, tangential = LayeredSurface(count, pitch, body), TangentialLayer(count, pitch, body)
     pairs = (
         CoupledPair(normal, tangential, friction),
-        CoupledHalfPlane(count, pitch, modulus, friction * beta),
+        coupled_half_planes(count, pitch, modulus, friction * beta),
     )
     solutions = [solve_coupled(pair, gap, grid.weights, load) for pair in pairs]
     peak = np.max(solutions[1].pressure)

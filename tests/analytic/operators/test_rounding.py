@@ -14,7 +14,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import coupled_half_planes
 
 THRESHOLD = 30.0  # LAPACK's own for its test ratios
 ELASTOMER = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
@@ -22,7 +22,7 @@ COATED = LayeredBody(Material(1e6, 0.3), 1.0, Material(1.0, 0.3))
 half_plane = partial(HalfPlane, pitch=1.0, modulus=1.0)
 elastomer = partial(LayeredSurface, pitch=0.05, body=ELASTOMER)
 stiff_coating = partial(LayeredSurface, pitch=1e-3, body=COATED)
-sliding = partial(CoupledHalfPlane, pitch=1.0, modulus=1.0, friction_dundurs=1.0)
+sliding = partial(coupled_half_planes, pitch=1.0, modulus=1.0, friction_dundurs=1.0)
 SCATTERED = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
 
 

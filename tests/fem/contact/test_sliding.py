@@ -5,7 +5,7 @@ Requirement: place and pressures of the contact of a sliding cylinder are the ex
 """
 
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,14 +21,12 @@ from analytic.contact.problem import ContactSolution
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance
+from analytic.operators.tangential import DenseCoupledCompliance, coupled_half_planes
 from analytic.surface.synthetic import self_affine
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
-
-solve_with_coupled_model = partial(solve_with_model, solver=solve_coupled)
 
 TABLE = reference("f_rounded_punch_and_sliding")["sliding_cylinder"]
 STEEL, SOFT, CORK = Material(1.0, 0.3), Material(1.0, 0.49), Material(1.0, 0.0)
@@ -76,9 +74,9 @@ def solved(body: Material, roller: Material | None, friction: float, **how):
     """Solution on finite elements under the load, and the exact one."""
     modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
     radius = 0.5 * modulus
-    solution = solve_with_coupled_model(
+    solution = solve_with_model(
         sliding_bodies(body, roller, friction, **how),
-        CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction * beta),
+        coupled_half_planes(GRID.count, GRID.pitch, modulus, friction * beta),
         GRID.hat_integrals(lambda x: 0.5 * x**2 / radius),
         GRID.weights,
         Constraints(load=LOAD),
@@ -187,7 +185,7 @@ def rough_gap(grid: HatGrid, seed: int) -> np.ndarray:
 def as_the_whole_matrix(compliance, model, gap, weights, constraints) -> ContactSolution:
     """The solution by the whole matrix, which the one with a model is, too; friction 0.5."""
     problem = gap, weights, constraints
-    solution = solve_with_coupled_model(Sliding(compliance, 0.5), model, *problem)
+    solution = solve_with_model(Sliding(compliance, 0.5), model, *problem)
     direct = solve_coupled(DenseCoupledCompliance(compliance.matrix(0.5)), *problem)
     assert solution.converged and direct.converged
     assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
@@ -202,8 +200,8 @@ class TestRoughProfiles:
         grid, compliance = rough_surface()
         matrix = compliance.matrix(friction)
         gap = rough_gap(grid, seed)
-        model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.5 * friction)
-        solution = solve_with_coupled_model(
+        model = coupled_half_planes(grid.count, grid.pitch, 1.0, 0.5 * friction)
+        solution = solve_with_model(
             Sliding(compliance, friction), model, gap, grid.weights, Constraints(load=LOAD)
         )
         assert solution.converged and solution.iterations["steps"] <= 7
@@ -214,7 +212,7 @@ class TestRoughProfiles:
 
     def test_under_a_hardness_the_whole_matrix_gives_the_same(self):
         grid, compliance = rough_surface()
-        model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.25)
+        model = coupled_half_planes(grid.count, grid.pitch, 1.0, 0.25)
         constraints = Constraints(load=LOAD, hardness=2.0)
         as_the_whole_matrix(compliance, model, rough_gap(grid, 4), grid.weights, constraints)
 
@@ -230,7 +228,7 @@ def test_a_layer_a_third_as_thick_as_the_contact(base):
     beta = dundurs_constants(body.material, None)[1]
     modulus = body.material.plane_strain_modulus
     gap = GRID.hat_integrals(lambda x: 0.05 * x**2)
-    model = CoupledHalfPlane(GRID.count, GRID.pitch, modulus, 0.5 * beta)
+    model = coupled_half_planes(GRID.count, GRID.pitch, modulus, 0.5 * beta)
     direct = as_the_whole_matrix(compliance, model, gap, GRID.weights, Constraints(load=0.1))
     assert direct.residuals.worst < 1e-12
     assert 0.5 < np.ptp(contact_patches(GRID.x, direct.pressure, direct.gap)) < 3.0

@@ -69,10 +69,12 @@ def test_a_broken_layer_fails_the_rows(monkeypatch):
 
 
 def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch):
-    original = half_plane.CoupledHalfPlane
-    monkeypatch.setattr(
-        half_plane, "CoupledHalfPlane", lambda *constants: original(*constants[:3], -constants[3])
-    )
+    original = half_plane.coupled_half_planes
+
+    def turned(*constants):
+        return original(*constants[:3], -constants[3])
+
+    monkeypatch.setattr(half_plane, "coupled_half_planes", turned)
     assert not row_of("half_plane", "friction 1, rigid on nu = 0").holds
 
 
