@@ -73,7 +73,7 @@ class Plots:
         import pyvista
 
         from comparisons.output.arrays import levels_by_folder
-        from comparisons.output.field_files import field_of, vtk_grid
+        from comparisons.output.field_files import CELL_TYPES, field_of
 
         every, shown = levels_by_folder(self.outcome).values(), levels[model]
         together = next(of for of in every if any(level is shown for level in of.values()))
@@ -81,7 +81,9 @@ class Plots:
         array = next((n for n in field.arrays if n.partition(" (")[0] == array), array)
         if array not in field.arrays:
             raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")
-        grid = vtk_grid(field)
+        cells = {CELL_TYPES[field.cells.shape[1]]: field.cells}
+        grid = pyvista.UnstructuredGrid(cells, field.points)
+        grid.point_data.update(field.arrays)
         plotter = pyvista.Plotter()
         title = f"{array} [{field.units[array]}]"
         plotter.add_mesh(grid, scalars=array, cmap="cividis", scalar_bar_args={"title": title})
