@@ -8,7 +8,7 @@ In: the half-plane's levels. Out: its figures with coupling, and their differenc
 without, by friction coefficient."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from comparisons.figures.figure import Figure, Findings, Series, Statement, colu
 from comparisons.figures.quantity import COMPARED, NORMS, Quantity
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact
-from comparisons.judging.rule import relative_l2, values_of
+from comparisons.judging.rule import relative_differences, relative_l2, values_of
 from comparisons.judging.study import CONVERGED, WHY_NOT, Case, Solved, Study
 from comparisons.models.analytic import analytic_level
 from comparisons.models.level import Level
@@ -45,34 +45,27 @@ BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 
 @dataclass(frozen=True)
-class Change:
-    """A figure with coupling."""
-
-    value: float | None  # [SI]; None for the norm of a difference
-    # relative to the figure without coupling, None where only that is zero; of a shift over a
-    difference: float | None
-
-
-@dataclass(frozen=True)
 class Coupling:
-    """At one friction coefficient."""
+    """What it changes at one friction coefficient."""
 
     friction: float
-    # by quantity; contact_shift is that of the pressure's centroid along x
-    changes: dict[str, Change]
+    figures: dict[str, float] = field(default_factory=dict)  # with it [SI], by quantity
+    # over the figures without it, or Hertz's where these vanish; the shift over the half-width
+    changes: dict[str, float] = field(default_factory=dict)
+    other: Level | None = None  # the half-plane solved the other way than the model's own
     converged: bool = True  # whether both solutions met their contact conditions
-    # iterations and seconds of the solution that the model's own is compared with
-    iterations: dict[str, int] | None = None
-    seconds: float = 0.0
     why: str | None = None  # why there are no changes, None where there are
 
 
 def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
-    """Of the half-plane as far as it is refined, computed once; none where there is no coupling."""
+    """Of the half-plane as far as it is refined, one a friction coefficient, computed once; none
+    where there is no coupling."""
     if not solved.plan.coupling:
         return ()
     levels = len(solved.runs["half_plane"].levels)
-    return tasks.held(NAME, levels, lambda: couplings(solved, tasks.callback))
+    return tasks.held(
+        NAME, levels, lambda: tuple(coupling_of(case, tasks.callback) for case in solved.cases)
+    )
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
@@ -82,12 +75,13 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     figures, series, said = [], [], []
     for coupling in changed:
         at = {"friction": coupling.friction}
-        figures += figures_of_changes(coupling, solved.problem, known)
         if coupling.why is not None:
             said.append(Statement(WHY_NOT, coupling.why, "half_plane", at))
             continue
+        figures += figures_of_changes(coupling, solved.problem, known)
         said.append(Statement(CONVERGED, "yes" if coupling.converged else "no", "half_plane", at))
-        counts = coupling.iterations | {"seconds": coupling.seconds}
+        seconds = sum(coupling.other.seconds.values())
+        counts = coupling.other.solution.iterations | {"seconds": seconds}
         series.append(Series("cost", columns_of([counts]), "half_plane", at, is_account=True))
     return Findings(tuple(figures), tuple(series), tuple(said), changed)
 
@@ -101,47 +95,52 @@ def figures_of_changes(
     stated = {figure.quantity: figure for figure in without}
     worst = max(stated.values(), key=lambda f: f.numerical)
     for name, change in coupling.changes.items():
+        value = coupling.figures.get(name)  # a norm has none
         figure = stated.get("contact_length" if name == SHIFT else name, worst)
-        scale = problem.hertz.half_width if name == SHIFT else abs(change.value or 0.0) or 1.0
-        unsure = Uncertainty(figure.uncertainty.parts)
-        for value, against in ((change.value, None), (change.difference, UNCOUPLED)):
-            if value is not None:
-                yield Figure(NAME, name, "half_plane", value, at, against, scale, unsure)
+        scale = problem.hertz.half_width if name == SHIFT else abs(value or 0.0) or 1.0
+        common = scale, Uncertainty(figure.uncertainty.parts)
+        if value is not None:
+            yield Figure(NAME, name, "half_plane", value, at, None, *common)
+        yield Figure(NAME, name, "half_plane", change, at, UNCOUPLED, *common)
 
 
-def couplings(solved: Solved, callback: ProgressCallback) -> tuple[Coupling, ...]:
-    """One for each friction coefficient, in the order of the scene, from the finished
-    half-plane."""
-    return tuple(_coupling(case, callback) for case in solved.cases)
-
-
-def _coupling(case: Case, callback: ProgressCallback) -> Coupling:
+def coupling_of(case: Case, callback: ProgressCallback) -> Coupling:
+    """From the finished half-plane of a case."""
     problem, friction, level = case.problem, case.friction, case.runs["half_plane"].finest
     if (why := no_coupling(problem, friction)) is not None:
-        return Coupling(friction, {}, why=why)
+        return Coupling(friction, why=why)
+    other = _other_way(problem, level, callback)
+    if other is None:
+        return Coupling(friction, why=BEYOND_THE_END)
+    level = _spread(level, other.grid)
+    moved, still = (level, other) if problem.coupling else (other, level)
+    figures, before = (values_of(one, problem) for one in (moved, still))
+    changes = relative_differences(figures, before, problem)
+    shift = _centroid(moved) - _centroid(still)
+    changes[SHIFT] = shift / problem.hertz.half_width
+    changes["pressure_l2"] = relative_l2(moved.solution.pressure, still.solution.pressure)
+    both = moved.converged and still.converged
+    return Coupling(friction, figures | {SHIFT: shift}, changes, other, both)
+
+
+def _other_way(problem: Problem, level: Level, callback: ProgressCallback) -> Level | None:
+    """With coupling where the level has none, without it where it has, on a grid that the contact
+    moved by friction stays on; None where the surface ends before."""
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
-    # the level itself was solved with coupling or without; solve the other way
     effects = frozenset({COUPLED}) - problem.half_plane_effects
     # friction moves the contact by at most about mu beta of its own half-length
-    more = int(np.ceil(0.5 * abs(friction * problem.dundurs_beta) * level.grid.count))
+    more = int(
+        np.ceil(0.5 * abs(problem.largest_friction * problem.dundurs_beta) * level.grid.count)
+    )
     while True:
         grid = _stretched(problem, level.grid, more)
         [other] = analytic_level(problem, effects, grid, stages).values()
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
-            break
+            return other
         more *= 2
         if _stretched(problem, level.grid, more) == grid:
-            return Coupling(friction, {}, why=BEYOND_THE_END)
-    level = _spread(level, grid)
-    moved, still = (level, other) if problem.coupling else (other, level)
-    return Coupling(
-        friction=friction,
-        changes=_changes(problem, moved, still),
-        converged=moved.solution.converged and still.solution.converged,
-        iterations=other.solution.iterations,
-        seconds=sum(stages.seconds.values()),
-    )
+            return None
 
 
 def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
@@ -159,21 +158,6 @@ def _spread(level: Level, grid: HatGrid) -> Level:
     before, after = level.grid.first - grid.first, grid.last - level.grid.last
     pressure = np.pad(level.solution.pressure, (before, after))
     return replace(level, grid=grid, solution=replace(level.solution, pressure=pressure))
-
-
-def _changes(problem: Problem, moved: Level, still: Level) -> dict[str, Change]:
-    values, before = (values_of(level, problem) for level in (moved, still))
-    changes = {name: Change(v, _relative(v, before[name])) for name, v in values.items()}
-    shift = _centroid(moved) - _centroid(still)
-    changes[SHIFT] = Change(shift, shift / problem.hertz.half_width)
-    between = relative_l2(moved.solution.pressure, still.solution.pressure)
-    return changes | {"pressure_l2": Change(None, between)}
-
-
-def _relative(value: float, before: float) -> float | None:
-    if value == before:
-        return 0.0
-    return value / before - 1.0 if before else None
 
 
 def _centroid(level: Level) -> float:

@@ -222,12 +222,9 @@ def coupling(problem: Problem, shown: Shown) -> Sizes:
     measured = {coupling.friction: coupling.changes for coupling in shown.couplings}
     for friction in problem.scene.load.friction:
         sizes = _coupled(friction * abs(problem.dundurs_beta))
-        for name, change in (measured.get(friction) or {}).items():
+        for name, change in measured.get(friction, {}).items():
             if name in QUANTITIES:
-                moved = change.difference
-                if moved is None:  # zero without: by the scale that differences then take
-                    moved = change.value / QUANTITIES[name].scale(problem.hertz)
-                sizes[name] = abs(moved)
+                sizes[name] = abs(change)
         layered = _coupled(friction * _layered_beta(problem))  # which no half-plane shows
         estimate = {
             name: max(size, layered[name], estimate.get(name, 0.0)) for name, size in sizes.items()
