@@ -29,7 +29,7 @@ from comparisons.figures.figure import (
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
 from comparisons.judging import contact
-from comparisons.judging.ladder.show import ESCALATE_TO, SUFFICES
+from comparisons.judging.ladder.study import ESCALATE_TO, SUFFICES
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
 from comparisons.judging.verdict.headline import headline
 from comparisons.studies import meaning

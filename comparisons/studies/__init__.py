@@ -4,7 +4,7 @@ A new study is named here, and nowhere else."""
 
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import Quantity
-from comparisons.judging import comparison, contact, coupling, ladder, layered, yielding
+from comparisons.judging import comparison, contact, coupling, ladder, yielding
 from comparisons.judging.ladder import cost
 from comparisons.judging.model_error.study import STUDY as MODEL_ERROR
 from comparisons.studies import (
@@ -22,7 +22,7 @@ from comparisons.studies.friction import PARTIAL_SLIP
 
 # In the order in which they are done, and their figures shown.
 STUDIES = (
-    *(contact.STUDY, comparison.STUDY, layered.STUDY, coupling.STUDY, MODEL_ERROR),
+    *(contact.STUDY, comparison.STUDY, comparison.LAYERED_STUDY, coupling.STUDY, MODEL_ERROR),
     *(problem.STUDY, running_in.STUDY, checks.STUDY, scatter.STUDY, yielding.STUDY),
     *(quiescent_zone.STUDY, statistics.STUDY, answers.STUDY, heat.STUDY),
     *(PARTIAL_SLIP, published.STUDY, ladder.STUDY, cost.STUDY),

@@ -8,7 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from analytic.contact.problem import ContactError
+from comparisons.common.tasks import LAST, Tasks
+from comparisons.judging.study import Solved
 from comparisons.models.analytic import CAP
+from comparisons.models.level import Solution
+from comparisons.models.model import Model
 from comparisons.models.operators import LAYERS, is_layered, layered_body
 from comparisons.models.problem import COUPLED, TABOR, Problem
 
@@ -59,8 +64,9 @@ def _deformed(problem: Problem, effects: Effects, peak: float) -> Effects:
     return effects & {"finite_strain", "exact_circle"} | ({COUPLED} if moves else NONE)
 
 
+OPERATORS = "operators"
 CANDIDATES = (
-    Candidate("operators", "layered", _by_operator),
+    Candidate(OPERATORS, "layered", _by_operator),
     Candidate("deformed", "deformed", _deformed, has_elements=False),
 )
 
@@ -78,3 +84,24 @@ def why_no_stresses(problem: Problem) -> str | None:
     if problem.window is None or body is None or body.thickness > THINNEST * np.ptp(problem.extent):
         return None
     return "the layer is too thin for the waves of its stresses"
+
+
+def announce(solved: Solved, held: Effects, levels: int, tasks: Tasks) -> list[str]:
+    """The keys of the tasks that solve the half-plane with some of the effects."""
+    model = Model(f"{OPERATORS}-{'+'.join(sorted(held))}", "analytic", held, label=words_of(held))
+    numbers = range(1, levels + 1)
+    return [model.announce(tasks, solved.problem, number, urgency=LAST) for number in numbers]
+
+
+def solutions(solved: Solved, held: Effects, tasks: Tasks) -> dict[float, Solution] | None:
+    """The half-plane with some of the effects, by friction coefficient, on the pressure elements of
+    the finite elements; None where it has no solution."""
+    keys = announce(solved, held, len(solved.runs["finite_element"].levels), tasks)
+    try:
+        levels = list(map(tasks.result, keys))
+    except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+        return None
+    if not all(level.converged for of_pitch in levels for level in of_pitch.values()):
+        return None
+    frictions = [case.friction for case in solved.cases]
+    return {mu: Solution(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}

@@ -11,14 +11,12 @@ from time import perf_counter
 
 import numpy as np
 
-from analytic.contact.problem import ContactError
-from comparisons.common.tasks import LAST, Tasks
+from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.ladder import candidates
-from comparisons.judging.ladder.candidates import words_of
 from comparisons.judging.model_error.model_error import Solutions, figure_of
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.refinement import ErrorBudget
@@ -26,10 +24,9 @@ from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
 from comparisons.models.level import Solution
-from comparisons.models.model import Model
 from comparisons.models.smooth import closed_form
 
-HERTZ, HALF_PLANE, OPERATORS = "hertz", "half_plane", "operators"
+HERTZ, HALF_PLANE = "hertz", "half_plane"
 OTHER = MODELS[1]  # the finite elements of the scene
 # Finite elements by the dearest effect that they have, from the cheapest on.
 ELEMENTS = {
@@ -37,11 +34,6 @@ ELEMENTS = {
     FINITE: "finite deformation",
     FLOW: "elastic-plastic finite elements",
 }
-
-
-def may_suffice(errors: Iterable[Figure]) -> bool:
-    """Whether no error of a rung fails, or is less certain than its tolerance."""
-    return all(e.verdict != "fails" and e.total <= e.tolerance for e in errors)
 
 
 @dataclass(frozen=True)
@@ -74,11 +66,11 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
         held = candidate.carries(solved.problem, effects, peak)
         same = [rung for rung in made if rung.effects == held and candidate.has_elements]
         refuted = any(rung.verdict == "fails" for rung in same)
-        runs = operator_runs(solved, held, tasks) if held and not refuted else None
+        runs = candidates.solutions(solved, held, tasks) if held and not refuted else None
         if runs is not None:
             took = _took(next(iter(runs.values())))  # what all took together
             errors = (e for one in budget.solutions for e in _beside(one, runs))
-            named = candidate.name, held, words_of(held)
+            named = candidate.name, held, candidates.words_of(held)
             made.append(_rung(budget, solved, *named, took, errors))
             analytic.append(candidate.name)
     order = [HERTZ, HALF_PLANE, *(candidate.name for candidate in every), *ELEMENTS, WHOLE]
@@ -112,8 +104,11 @@ def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
     took = _took(solved.runs[OTHER])
     lacking = (one.missing[-1].figures.values() for one in every)
     if own and any(np.any(change) for figures in lacking for change in figures):
-        levels = [[level[one.split.of_scene] for level in one.history] for one in every]
-        errors = (e for one, of in zip(every, levels, strict=True) for e in one.of_levels(of))
+        errors = (
+            e
+            for one in every
+            for e in one.of_levels([level[one.split.of_scene] for level in one.history])
+        )
         yield rung(OTHER, own, _words_of_elements(own), took, errors)
     more, most = _took_by(budget, (variant for one in every for variant in one.split.wholes))
     words = f"whole model: {_words_of_elements(selection.whole)}"
@@ -149,31 +144,6 @@ def _rung(
     mine = {"study": LADDER, "source": name, "parts": (), "place": None}
     figures = (replace(figure_of(error, *known), **mine) for error in errors)
     return Rung(name, effects, words, *took, tuple(f for f in figures if f.bounds is not None))
-
-
-def announce_operators(
-    solved: Solved, held: frozenset[str], levels: int, tasks: Tasks
-) -> list[str]:
-    """The keys of the tasks that solve the half-plane with some of the effects."""
-    model = Model(f"{OPERATORS}-{'+'.join(sorted(held))}", "analytic", held, label=words_of(held))
-    numbers = range(1, levels + 1)
-    return [model.announce(tasks, solved.problem, number, urgency=LAST) for number in numbers]
-
-
-def operator_runs(
-    solved: Solved, held: frozenset[str], tasks: Tasks
-) -> dict[float, Solution] | None:
-    """The half-plane with some of the effects, by friction coefficient, on the pressure elements of
-    the finite elements; None where it has no solution."""
-    keys = announce_operators(solved, held, len(solved.runs[OTHER].levels), tasks)
-    try:
-        levels = list(map(tasks.result, keys))
-    except ContactError:  # the cap takes a contact that the pressures' extent does not hold
-        return None
-    if not all(level.converged for of_pitch in levels for level in of_pitch.values()):
-        return None
-    frictions = [case.friction for case in solved.cases]
-    return {mu: Solution(OPERATORS, tuple(of_pitch[mu] for of_pitch in levels)) for mu in frictions}
 
 
 def _closed_form(case: Case) -> dict[str, float]:

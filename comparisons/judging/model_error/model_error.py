@@ -81,16 +81,19 @@ class Solutions:
         joint = [level[self.split.whole] - level[self.split.nothing] for level in levels]
         return [reduce(sub, changes) for changes in zip(joint, *self.effects.values(), strict=True)]
 
+    def solved(self, variant: ModelVariant | None) -> list[QuantitiesOfInterest]:
+        """A variant on the levels of the effects."""
+        return [level[variant] for level in self.history]
+
     @cached_property
     def wholes(self) -> list[QuantitiesOfInterest]:
-        """With every effect, on the levels of the effects."""
-        return [level[self.split.whole] for level in self.history]
+        """With every effect."""
+        return self.solved(self.split.whole)
 
     @cached_property
     def missing(self) -> list[QuantitiesOfInterest]:
         """What the scene's own finite elements lack of the wholes."""
-        pairs = zip(self.wholes, self.history, strict=True)
-        return [whole - level[self.split.of_scene] for whole, level in pairs]
+        return list(map(sub, self.wholes, self.solved(self.split.of_scene)))
 
     @cached_property
     def half_plane(self) -> QuantitiesOfInterest:

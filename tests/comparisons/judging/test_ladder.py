@@ -12,7 +12,7 @@ from scenes import STEADY, WAVY, changed, refound
 from comparisons.common.errors import ExitStatus
 from comparisons.figures.figure import Statement
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.ladder import show
+from comparisons.judging.ladder import study as ladder
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT
 from comparisons.output.result_json import content_of, result_of
 
@@ -42,14 +42,14 @@ def test_hertz_stands_where_the_surface_is_smooth(smooth_outcome):
     length = known.one(quantity="contact_length")
     assert abs(length.value - (STIFFER**0.5 - 1.0)) <= length.numerical
     assert {figure.verdict for figure in known} == {"holds"}
-    assert smooth_outcome.findings[LADDER].said(show.SUFFICES) == "hertz"
+    assert smooth_outcome.findings[LADDER].said(ladder.SUFFICES) == "hertz"
 
 
 def test_hertz_fails_and_the_half_plane_holds_on_a_wavy_surface(wavy_outcome):
     known, findings = wavy_outcome.figures.of(study=LADDER), wavy_outcome.findings[LADDER]
     assert "fails" in {figure.verdict for figure in known.of(source="hertz")}
-    assert findings.said(show.SUFFICES) == "half_plane"
-    [(name, line)] = show.lines(wavy_outcome)
+    assert findings.said(ladder.SUFFICES) == "half_plane"
+    [(name, line)] = ladder.lines(wavy_outcome)
     assert name == "cheapest that holds"
     assert line.startswith("half-plane (")
 
@@ -76,7 +76,7 @@ def test_a_run_answers_for_its_half_plane_alone(wavy_outcome):
 def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
     """The line names one that may, by errors that are known to their tolerances; no other."""
     errors = wavy_outcome.figures.of(study=LADDER)
-    said = (Statement(show.NONE, "the whole model is not known to the tolerance"),)
+    said = (Statement(ladder.NONE, "the whole model is not known to the tolerance"),)
     none = "none, the whole model is not known to the tolerance; "
 
     def line(unsure: float) -> str:
@@ -87,7 +87,7 @@ def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
             for e in errors.of(source="hertz")
         )
         run = refound(wavy_outcome, LADDER, figures=(*hertz, *looser), statements=said)
-        [(_, text)] = show.lines(run)
+        [(_, text)] = ladder.lines(run)
         return text
 
     tolerance = errors[0].tolerance
@@ -96,7 +96,7 @@ def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
     without = refound(
         wavy_outcome, LADDER, figures=(), series=(), statements=(Statement(WHY_NOT, "no whole"),)
     )
-    assert show.lines(without) == [] == show.blocks(without)
+    assert ladder.lines(without) == [] == ladder.blocks(without)
 
 
 def test_a_model_that_fails_is_shown_by_an_error_that_fails(wavy_outcome):
@@ -105,7 +105,7 @@ def test_a_model_that_fails_is_shown_by_an_error_that_fails(wavy_outcome):
         replace(error, unknown={"finite_strain": 9.0}) if error.verdict != "fails" else error
         for error in wavy_outcome.figures.of(study=LADDER)
     )
-    [block] = show.blocks(refound(wavy_outcome, LADDER, figures=vague))
+    [block] = ladder.blocks(refound(wavy_outcome, LADDER, figures=vague))
     rows = block.items[0].rows
     assert [row[0] for row in rows][:2] == ["Hertz's closed form", "half-plane"]
     assert (rows[0][4], rows[1][4]) == ("fails", "inconclusive")

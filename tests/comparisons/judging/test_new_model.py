@@ -5,7 +5,7 @@ from scenes import STEEL, run_of
 from comparisons.judging.ladder import candidates
 from comparisons.judging.ladder.candidates import CANDIDATES, Candidate
 from comparisons.judging.ladder.cost import methods_of
-from comparisons.judging.ladder.show import RUNGS
+from comparisons.judging.ladder.study import RUNGS
 from comparisons.models.problem import Levels
 
 NARROW = {
