@@ -9,13 +9,12 @@ import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
-from comparisons.common.errors import ExitStatus, one_line
+from comparisons.common.errors import ExitStatus, check_finite_elements, one_line
 from comparisons.common.files import check_writable, publish, unfinished
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
@@ -293,13 +292,13 @@ def carry_out(
     concluded: Callable[[str, tuple[Row, ...], float], Campaign] = Campaign,
 ) -> Campaign:
     """Carry out all cases of a command, and leave <command>.json in `out`, JUnit XML in the file
-    `junit`. Raises InputError where those cannot be written, and ModuleNotFoundError where there
-    is no dolfinx for cases that take it.
+    `junit`. Raises InputError where those cannot be written, and MissingLibrary where there is no
+    dolfinx for cases that need it.
 
     concluded  makes the finished campaign of the command, its rows and the seconds"""
     check_places(command, out, junit)
-    if any(case.model in ("finite_element", "both") for case in cases) and not find_spec("dolfinx"):
-        raise ModuleNotFoundError(f"{command}: takes dolfinx", name="dolfinx")
+    if any(case.model in ("finite_element", "both") for case in cases):
+        check_finite_elements()
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})

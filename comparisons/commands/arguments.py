@@ -1,12 +1,11 @@
-"""What several commands take, what they return, and what the shell may complete."""
+"""What several commands take, and what the shell may complete."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
-from functools import partial, wraps
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from typer import Argument, Option
+from typer import Argument, BadParameter, Option
 from typer.models import OptionInfo
 
 if TYPE_CHECKING:
@@ -14,18 +13,6 @@ if TYPE_CHECKING:
 
 RESULTS = Path("results")
 LAUNCHED_AS = "CROSSCHECK_LAUNCHED_AS"  # what was typed in place of `crosscheck`, by its launcher
-Job = Callable[[], int]  # the work of a command; returns the exit status
-
-
-def job(work: Callable[..., int]) -> Callable[..., Job]:
-    """A command that only takes its arguments apart and returns the work to do:
-    `comparisons.cli.main` does it, so that every error and interrupt ends there."""
-
-    @wraps(work)
-    def command(**arguments: object) -> Job:
-        return partial(work, **arguments)
-
-    return command
 
 
 def json_option(name: str) -> OptionInfo:
@@ -35,7 +22,20 @@ def json_option(name: str) -> OptionInfo:
 
 def out_option(content: str, default: str) -> OptionInfo:
     """The option `--out` of a command that writes a folder."""
-    return Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
+    return path_option(f"Folder for the {content}.", f"results/{default}")
+
+
+def path_option(meaning: str, default: str | bool = True) -> OptionInfo:
+    """An option that names a file or folder to write."""
+    return Option(help=meaning, show_default=default, parser=_path, metavar="PATH")
+
+
+def _path(text: str) -> Path:
+    """An empty text, as an unset variable leaves it, would be the working folder and replace what
+    stands there."""
+    if not text.strip():
+        raise BadParameter("is empty; allowed is a path")
+    return Path(text)
 
 
 def scene_with(
@@ -100,4 +100,4 @@ MODELS = "Models to solve with, separated by commas."
 SceneName = Annotated[str, Argument(help=SCENE, autocompletion=complete_scenes)]
 Settings = Annotated[list[str] | None, Option("--set", metavar="FIELD=VALUE", help=SET)]
 Models = Annotated[str, Option(help=MODELS, autocompletion=complete_models)]
-Junit = Annotated[Path | None, Option(help="File for JUnit XML: a testcase a figure.")]
+Junit = Annotated[Path | None, path_option("File for JUnit XML: a testcase a figure.")]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from comparisons.commands.arguments import RESULTS, Junit, job, json_option, out_option
+from comparisons.commands.arguments import RESULTS, Junit, json_option, out_option
 from comparisons.commands.output import progress, show_either
 from comparisons.common.numbers import finite
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from comparisons.campaigns.cases import Campaign
 
 
-@job
 def stability(
     out: Annotated[Path | None, out_option("rows", "stability")] = None,
     junit: Junit = None,
@@ -29,7 +28,6 @@ def stability(
     return _solved("stability", solve, out, junit, as_json)
 
 
-@job
 def verify(
     out: Annotated[Path | None, out_option("figures", "verify")] = None,
     junit: Junit = None,

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from comparisons.commands.arguments import job, json_option
+from comparisons.commands.arguments import json_option
 from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Step
@@ -47,7 +47,6 @@ def trials() -> dict[str, str]:
     return _known()["items"] | of_models
 
 
-@job
 def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> int:
     """Show what is installed, what is missing, and how to get it."""
     from comparisons.common.provenance import PROJECT, revision

@@ -6,17 +6,16 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from comparisons.commands.arguments import RESULTS, job, json_option
+from comparisons.commands.arguments import RESULTS, json_option, path_option
 from comparisons.commands.output import progress, show, show_either, show_json
 from comparisons.common.errors import ExitStatus, InputError, tell
 
 
-@job
 def report(
     folders: Annotated[list[Path], Argument(metavar="DIR...", help="Folders that runs have left.")],
     summary: Annotated[
         Path | None,
-        Option(help="Page over all runs.", show_default="results/summary.html, of several DIR"),
+        path_option("Page over all runs.", "results/summary.html, of several DIR"),
     ] = None,
     pdf: Annotated[bool, Option("--pdf", help="Print each report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
@@ -44,10 +43,9 @@ def report(
     return ExitStatus.DONE
 
 
-@job
 def rerun(
     folder: Annotated[Path, Argument(metavar="DIR", help="Folder that a run has left.")],
-    out: Annotated[Path | None, Option(help="Folder that keeps the repetition.")] = None,
+    out: Annotated[Path | None, path_option("Folder that keeps the repetition.")] = None,
     as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
 ) -> int:
     """Repeat a recorded run, from its own record. Shows every figure that moved."""
@@ -60,12 +58,11 @@ def rerun(
     return repetition.exit_status
 
 
-@job
 def table(
     folders: Annotated[
         list[Path], Argument(metavar="DIR...", help="Folders with runs in or below them.")
     ],
-    out: Annotated[Path | None, Option(help="FILE.csv, with every figure.")] = None,
+    out: Annotated[Path | None, path_option("FILE.csv, with every figure.")] = None,
     raw: Annotated[bool, Option("--csv", help="Print every figure as CSV.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print every figure as JSON.")] = False,
 ) -> int:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument
 
-from comparisons.commands.arguments import job, json_option
+from comparisons.commands.arguments import json_option
 from comparisons.commands.output import show_either
 from comparisons.common.errors import ExitStatus, InputError
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 UNKNOWN = "-"
 
 
-@job
 def materials(
     name: Annotated[
         str | None, Argument(help="A solid, of which everything is shown with its sources.")

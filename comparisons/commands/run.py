@@ -5,6 +5,7 @@ import math
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
+from io import StringIO
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
@@ -17,13 +18,12 @@ from comparisons.commands.arguments import (
     Models,
     SceneName,
     Settings,
-    job,
     json_option,
     out_option,
     scene_with,
 )
 from comparisons.commands.output import progress, say_warnings, show_either
-from comparisons.common.errors import ExitStatus, InputError, drop, tell
+from comparisons.common.errors import ExitStatus, InputError, tell
 from comparisons.figures.quantity import HYPHENATED, models_named
 
 if TYPE_CHECKING:
@@ -60,7 +60,6 @@ Details = Annotated[
 ]
 
 
-@job
 def run(
     context: Context,
     scene: SceneName,
@@ -109,19 +108,22 @@ def run(
     say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
     with progress() as callback, _workers(workers) as opens:
         solved = solve_scene(asked, directory, chosen, callback, opens, Known(surface))
-    gone = _say_answer(solved, details, as_json)  # before the report is drawn
-    say_warnings(warnings_about_result(solved))
-    with progress() as callback:
-        drawn = finish(solved, callback)
-        if pdf and drawn:
-            callback("printing the report")
-            _print(directory)
-    if junit is not None:
-        from comparisons.output.junit import junit_xml, run_cases_of, write_junit
+    try:
+        _say_answer(solved, details, as_json)  # before the report is drawn
+    except BrokenPipeError:
+        sys.stdout = StringIO()  # processes that start would write out the rest of it first
+        raise
+    finally:  # whoever reads on: the files are for others
+        say_warnings(warnings_about_result(solved))
+        with progress() as callback:
+            drawn = finish(solved, callback)
+            if pdf and drawn:
+                callback("printing the report")
+                _print(directory)
+        if junit is not None:
+            from comparisons.output.junit import junit_xml, run_cases_of, write_junit
 
-        write_junit(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
-    if gone is not None:
-        raise gone
+            write_junit(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
     if not as_json:
         first = f"{directory / 'report.html'}, result.json" if drawn else directory / "result.json"
         print(f"written: {first} and the fields beside it")
@@ -148,19 +150,13 @@ def _print(directory: Path) -> None:
         tell(str(error))
 
 
-def _say_answer(solved: "Run", details: bool, as_json: bool) -> BaseException | None:
-    """Print the answer; the error where nobody reads it: the files are for others."""
+def _say_answer(solved: "Run", details: bool, as_json: bool) -> None:
     from comparisons.output.result_json import content_of, result_of
     from comparisons.output.terminal import summary
 
-    try:
-        content = content_of(result_of(solved)) if as_json else {}
-        show_either(as_json, content, lambda: summary(solved, details))
-        sys.stdout.flush()
-    except (BrokenPipeError, SystemExit) as error:  # as rich has it
-        drop(sys.stdout)
-        return error
-    return None
+    content = content_of(result_of(solved)) if as_json else {}
+    show_either(as_json, content, lambda: summary(solved, details))
+    sys.stdout.flush()
 
 
 def _read(

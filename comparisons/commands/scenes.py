@@ -12,9 +12,9 @@ from comparisons.commands.arguments import (
     RESULTS,
     SceneName,
     Settings,
-    job,
     json_option,
     out_option,
+    path_option,
     scene_with,
 )
 from comparisons.commands.output import show, show_json
@@ -35,7 +35,6 @@ QUESTIONS = {
 }
 
 
-@job
 def scenes(
     benchmarks: Annotated[
         bool, Option("--benchmarks", help="Those of which figures are published.")
@@ -54,12 +53,9 @@ def scenes(
     return ExitStatus.DONE
 
 
-@job
 def init(
     profile: Annotated[Path, Argument(help="A file with a measured profile.")],
-    out: Annotated[
-        Path | None, Option(help="The scene's file.", show_default="PROFILE.toml")
-    ] = None,
+    out: Annotated[Path | None, path_option("The scene's file.", "PROFILE.toml")] = None,
     x_unit: Annotated[str | None, Option(help="Unit of positions, such as um.")] = None,
     z_unit: Annotated[str | None, Option(help="Unit of heights, such as um.")] = None,
     spacing: Annotated[
@@ -151,7 +147,6 @@ def _asked(options: Mapping[str, str | int | None]) -> dict[str, str | int | Non
     return answers
 
 
-@job
 def deck(
     scene: SceneName,
     code: Annotated[Code, Option("--for", help="Code that is to solve it.")],

@@ -15,7 +15,6 @@ from comparisons.commands.arguments import (
     complete_maps,
     complete_quantities,
     complete_scenes,
-    job,
     json_option,
     out_option,
     scene_with,
@@ -36,7 +35,6 @@ Workers = Annotated[
 MAPPED = "As for `run`, or the name of a finished map."
 
 
-@job
 def cost(
     scene: SceneName,
     settings: Settings = None,
@@ -62,7 +60,6 @@ def cost(
     return ExitStatus.DONE if solved.converged else ExitStatus.NOT_CONVERGED
 
 
-@job
 def map_of(
     scene: Annotated[str, Argument(help=MAPPED, autocompletion=complete_maps)],
     settings: Settings = None,
@@ -120,7 +117,6 @@ def map_of(
     return exit_status(content["points"])
 
 
-@job
 def sweep(
     scene: SceneName,
     over: Annotated[

@@ -1,14 +1,14 @@
 """Errors of one line, and the exit statuses that the command line ends with."""
 
 import difflib
-import os
 import re
 import sys
 import traceback
 from collections.abc import Iterable
+from contextlib import suppress
 from enum import IntEnum
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TextIO
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 
@@ -48,6 +48,20 @@ class SolverError(OneLineError, RuntimeError):
     """A solver did not converge; the command line ends with status 3."""
 
 
+class MissingLibrary(OneLineError, ModuleNotFoundError):
+    """What is asked for needs a library that is not installed; the command line ends with 2."""
+
+
+def check_finite_elements() -> None:
+    """Raise MissingLibrary where there is no dolfinx, which no wheel brings along."""
+    if find_spec("dolfinx") is None:
+        raise MissingLibrary(
+            f"finite elements need dolfinx, which {sys.executable} does not have; allowed is run "
+            "--models half-plane, or: conda install -c conda-forge fenics-dolfinx (on Debian and "
+            "Ubuntu ./crosscheck of a checkout)"
+        )
+
+
 def nearest(name: str, names: Iterable[str], alike: float = 0.0) -> str | None:
     """The one of `names` that is most like `name`; None where difflib's ratio is below `alike`."""
     return next(iter(difflib.get_close_matches(name, list(names), n=1, cutoff=alike)), None)
@@ -72,15 +86,7 @@ def note_place(error: BaseException) -> None:
     error.add_note(f"{Path(place.filename).name}, line {place.lineno}")
 
 
-def tell(message: str, before: str = "") -> None:
-    """Print one line to standard error, `before` it what a terminal obeys; nothing where standard
-    error cannot be written, now and when the process ends."""
-    try:
-        print(f"{before}crosscheck: {one_line(message)}", file=sys.stderr, flush=True)
-    except OSError:
-        drop(sys.stderr)
-
-
-def drop(stream: TextIO) -> None:
-    """Send what is left of a stream nowhere: its last flush must not fail again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+def tell(message: str) -> None:
+    """Print one line to standard error, nothing where that cannot be written."""
+    with suppress(OSError):
+        print(f"crosscheck: {one_line(message)}", file=sys.stderr, flush=True)

@@ -6,12 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
-from comparisons.common.errors import InputError, SceneError, SolverError
+from comparisons.common.errors import InputError, SceneError, SolverError, check_finite_elements
 from comparisons.common.files import unfinished
 from comparisons.common.processes import cores
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
@@ -59,7 +58,6 @@ Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
-WRITES_AGAIN = "all is solved and kept: the same command writes the files that are missing"
 
 
 @dataclass(frozen=True)
@@ -101,10 +99,10 @@ def solve_scene(
     callback  gets each stage as it begins
     opens     workers for the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved, SolverError where the finite elements find
-    no solution or a process ends amid a task, ModuleNotFoundError without their libraries; nothing
-    is kept then."""
-    if "finite_element" in models and find_spec("dolfinx") is None:
-        raise ModuleNotFoundError("finite elements take dolfinx", name="dolfinx")
+    no solution or a process ends amid a task, MissingLibrary without dolfinx; nothing is kept
+    then."""
+    if "finite_element" in models:
+        check_finite_elements()
     surface = known.surface or surface_of(scene)
     try:
         with _tasks_of(scene, models) as tasks:
@@ -232,10 +230,7 @@ def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:
         return False
     from comparisons.runs.write import write_files
 
-    try:
-        drawn = write_files(run, callback)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(WRITES_AGAIN) from None
+    drawn = write_files(run, callback)
     replace(NO_CACHE, folder=unfinished(run.directory, "run")).discard()
     return drawn
 

@@ -106,10 +106,8 @@ def interrupted_import() -> ImportError:
         (interrupted_import(), 130, "crosscheck: interrupted"),
         (ImportError("no numpy"), 70, "crosscheck: internal error: ImportError: no numpy in "),
         (OSError(28, "No space left on device"), 74, "crosscheck: OSError: [Errno 28] No space"),
-        (OSError(24, "Too many open files"), 71, "crosscheck: OSError: [Errno 24] Too many open f"),
         (MemoryError("Unable to allocate 9 GB"), 71, "crosscheck: MemoryError: Unable to allocate"),
         (ZeroDivisionError("two\nlines"), 70, "crosscheck: internal error: ZeroDivisionError: two"),
-        (RuntimeError("reported by MUMPS: INFOG(1)=-13"), 71, "crosscheck: RuntimeError: reported"),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -127,10 +125,10 @@ def test_how_failures_end(solver, capsys, monkeypatch, error, status, line):
     [("map", "points"), ("sweep", "points"), ("cost", "levels"), ("stability", "cases")],
 )
 def test_an_interrupt_says_what_is_kept_whenever_it_comes(monkeypatch, capsys, command, kept):
-    def interrupted(arguments):
+    def interrupted(app):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("comparisons.cli._check_places", interrupted)
+    monkeypatch.setattr("comparisons.cli.get_command", interrupted)
     assert main([command]) == ExitStatus.INTERRUPTED
     left = f"finished {kept} are kept, the same command goes on from there"
     assert capsys.readouterr().err == f"crosscheck: interrupted; {left}\n"
@@ -141,7 +139,7 @@ def test_traceback_on_request(solver, capsys, monkeypatch):
     solver.raises = ZeroDivisionError("why")
     assert main(["run", "smooth"]) == ExitStatus.DEFECT
     err = capsys.readouterr().err
-    assert err.startswith("Traceback") and err.endswith("ZeroDivisionError: why\n")
+    assert err.startswith("Traceback") and "\nZeroDivisionError: why\n" in err
 
 
 @pytest.mark.parametrize(
@@ -217,8 +215,9 @@ main(["run", "smooth", "--models", "half-plane", "--out", {str(tmp_path / "out")
 def test_one_thread_unless_the_user_says_otherwise(wanted, taken):
     environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
     environment |= {"OMP_NUM_THREADS": wanted} if wanted else {}
-    code = "import os, sys; from comparisons.cli import main; sys.argv = ['crosscheck', 'scenes']; "
-    done = python("-c", f"{code} main(); print(os.environ['OMP_NUM_THREADS'])", env=environment)
+    code = "import os; from comparisons import cli; cli.main = lambda *_: "
+    code += "print(os.environ['OMP_NUM_THREADS']) or 0; cli.entry()"
+    done = python("-c", code, env=environment)
     assert done.stdout.splitlines()[-1] == taken
 
 
@@ -277,7 +276,7 @@ def test_without_dolfinx_the_half_plane_works_and_the_rest_says_what_to_install(
         done = python("-c", code.format([*command, "--out", out]))
         assert (done.returncode, done.stdout) == (ExitStatus.BAD_INPUT, "")
         (line,) = done.stderr.splitlines()
-        assert "finite elements take dolfinx" in line
+        assert "finite elements need dolfinx" in line
         assert "allowed is run --models half-plane" in line
         assert not (tmp_path / "out").exists()
     done = python("-c", code.format(["run", "smooth", "--models", "half-plane", "--out", out]))

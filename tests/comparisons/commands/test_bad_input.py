@@ -249,21 +249,6 @@ def test_control_characters_of_a_name_are_shown_harmless(folder, complaint):
     assert "\x1b" not in line and r"\x1b[31m.toml" in line
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["run", "{}"],
-        ["run", "smooth", "--models", "half-plane", "--out", "{}"],
-        ["run", "smooth", "--models", "half-plane", "--junit", "{}"],
-        ["init", "{}"],
-        ["table", "{}"],
-    ],
-)
-def test_a_name_that_no_file_can_have_is_wrong_input(folder, complaint, arguments):
-    said = complaint(*(word.format(5000 * "x") for word in arguments))
-    assert "xxxx" in said and len(said) < 1000
-
-
 def test_a_scene_does_not_replace_its_profile(folder, complaint):
     (folder / "trace.toml").write_text(TRACE)
     assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")

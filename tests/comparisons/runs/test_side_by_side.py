@@ -27,9 +27,9 @@ def started(serve):
     pathlib.Path("started").open("a").write("*")
     return start(serve)
 tasks._process = started
-from comparisons.cli import main
+from comparisons.cli import entry
 sys.argv = ["crosscheck", "run", "scene.toml", "--out", "out"]
-sys.exit(main())
+entry()
 """
 
 
