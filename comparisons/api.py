@@ -36,7 +36,7 @@ from comparisons.output.flat_csv import (
     rows_tables,
 )
 from comparisons.output.page.plots import Plots
-from comparisons.output.result_json import Result, content_of, result_of
+from comparisons.output.result import Result, content_of, read_result, result_of
 from comparisons.scenes.scene import Scene, with_law, with_tolerance
 
 if TYPE_CHECKING:
@@ -323,10 +323,9 @@ def run(
 
 def read(folder: str | os.PathLike) -> RecordedRun:
     """A run from the folder that it has left, without solving. InputError where there is none."""
-    from comparisons.output.record import read_result
-
     place = _path(folder, "folder")
-    return RecordedRun(read_result(place / "result.json"), RunArrays.read(place), str(place))
+    result = read_result(place)
+    return RecordedRun(result, result.arrays, str(place))
 
 
 def compare(*runs: RecordedRun | Sequence[RecordedRun]) -> FigureTable:

@@ -239,7 +239,8 @@ def with_fields(run: "Run", fields: dict[str, object]) -> "Run":
 
 def without_cost(result: dict) -> dict:
     """The content of a result.json without what may differ from run to run."""
-    record = {name: part for name, part in result["record"].items() if name != "made"}
+    differs = ("made", "command", "files")
+    record = {name: part for name, part in result["record"].items() if name not in differs}
     series = [series for series in result["series"] if "is_account" not in series]
     return result | {"record": record, "series": series}
 

@@ -151,7 +151,7 @@ def _print(directory: Path) -> None:
 
 
 def _say_answer(solved: "Run", details: bool, as_json: bool) -> None:
-    from comparisons.output.result_json import content_of, result_of
+    from comparisons.output.result import content_of, result_of
     from comparisons.output.terminal import summary
 
     content = content_of(result_of(solved)) if as_json else {}

@@ -44,7 +44,7 @@ def cost(
     """Show error against time of every method: a run that solves the scene by all of them. Names
     the cheapest for each tolerance."""
     from comparisons.common.files import check_writable
-    from comparisons.output.result_json import content_of, result_of
+    from comparisons.output.result import content_of, result_of
     from comparisons.output.terminal import cost_summary
     from comparisons.runs.run import Known, run
 

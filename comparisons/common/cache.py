@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.common.files import whole_file
+from comparisons.common.files import write_whole
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Cache:
         content = io.BytesIO()
         np.savez(content, outline=np.array(outline), **arrays)
         self.folder.mkdir(parents=True, exist_ok=True)
-        with suppress(FileNotFoundError), whole_file(self.path(name)) as part:
-            part.write_bytes(content.getbuffer())
+        with suppress(FileNotFoundError):
+            write_whole(self.path(name), content.getvalue())
 
     def discard(self) -> None:
         """Remove the results, and the folder around theirs unless it holds those of others."""

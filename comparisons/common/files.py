@@ -1,35 +1,28 @@
 """Writing files, and a run's folder of them, so that each appears whole or not at all.
 
-Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
-moves to another file system. Else they are beside it: the folder appears with the results."""
+A file is written under a hidden name beside its own and renamed once. A folder that holds this
+program's files says so itself: by their first one, JSON with a `schema`. What somebody else wrote
+is never replaced."""
 
 import csv
 import glob
 import io
 import json
 import os
-import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from time import time
 
 from comparisons.common.errors import InputError
 
 OWN_FOLDERS = ("half_plane", "finite_element", "whole")
-REPORT = "report.html"
-RECORD = "record.json"  # its "files" are this program's
-# of the second friction coefficient, and so on
-FURTHER = tuple(f"{model}/friction_*" for model in OWN_FOLDERS)
-# What a run may write, by name or pattern, its record first; those that a repetition does not write
-# again are removed.
+REPORT, PDF = "report.html", "report.pdf"
+# What a run may write, by name or pattern; those of further friction coefficients lie deeper.
 OWN_FILES = (
-    *(RECORD, "result.json", REPORT, "run.npz", "report.pdf"),
-    *("run_in_profile.csv", "finite_element/mesh.msh", "finite_element/friction_*/mesh.msh"),
-    *(f"{m}/{name}" for m in OWN_FOLDERS + FURTHER for name in ("contact.csv", "stress.vtu")),
+    *("result.json", REPORT, PDF, "run.npz", "run_in_profile.csv", "finite_element/**/mesh.msh"),
+    *(f"{m}/**/{name}" for m in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
 )
-DAY = 86400.0  # s; whoever has not written for so long was killed
 
 
 def unfinished(out: Path, command: str) -> Path:
@@ -41,13 +34,13 @@ def unfinished(out: Path, command: str) -> Path:
 
 
 def claimed(out: Path, files: tuple[str, ...] = OWN_FILES) -> set[str]:
-    """Names of those of the `files` in a folder that this program wrote, as the record there says,
-    which is the first of them: a run's lists what it wrote, any other is that of all."""
-    record, present = _record(out / files[0]), set(_present(out, files))
-    if files[0] != RECORD:
-        return present if "schema" in record else set()
-    listed = record.get("files")
-    return present.intersection(listed) if isinstance(listed, list) else set()
+    """Names of those of the `files` in a folder that this program wrote: of a run those that its
+    record lists, else all."""
+    with suppress(OSError, ValueError, TypeError, AttributeError):
+        content, present = json.loads((out / files[0]).read_bytes()), set(_present(out, files))
+        listed = content.get("record", {}).get("files", present)
+        return present.intersection(listed) if "schema" in content else set()
+    return set()
 
 
 def holds_comparison(out: Path) -> bool:
@@ -55,80 +48,39 @@ def holds_comparison(out: Path) -> bool:
     return {f"{model}/contact.csv" for model in OWN_FOLDERS[:2]} <= claimed(out)
 
 
-def claim(out: Path, name: str) -> None:
-    """Note in a run's record that this program wrote a file more."""
-    record = _record(out / RECORD)
-    if name not in (files := record.get("files", ())):
-        record = record | {"files": sorted([*files, name])}
-        text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
-        write_whole(out / RECORD, text)
-
-
-def _record(path: Path) -> dict:
-    """A JSON object in a file; empty where there is none."""
-    with suppress(OSError, ValueError):
-        content = json.loads(path.read_bytes())
-        return content if isinstance(content, dict) else {}
-    return {}
-
-
 def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write `files` in, by name or
     pattern, and holds none of them that somebody else wrote."""
     with suppress(FileNotFoundError, NotADirectoryError):
         os.lstat(out)  # raises for a name that no file can have
-    place = out
-    while not os.path.lexists(place) and place != place.parent:
-        place = place.parent
-    for folder in (place, *(out / name for name in OWN_FOLDERS)):
-        if os.path.lexists(folder) and not folder.is_dir():
-            raise _cannot(out, f"{folder} is not a folder; allowed is a folder")
-        if folder.is_dir() and not os.access(folder, os.W_OK, effective_ids=True):
-            raise _cannot(out, f"{folder} is read-only; allowed is a folder to write in")
-    present = _present(out, files)
-    ours = claimed(out, files) if present else ()
-    for name in present:
-        if (out / name).is_dir():
-            raise _cannot(out, f"{out / name} is a folder; allowed is none")
-        if name not in ours:
-            why = f"no record there says that crosscheck wrote {name}"
-            raise _cannot(out, f"{why}; allowed is another folder")
+    place = next(path for path in (out, *out.parents) if os.path.lexists(path))
+    if not place.is_dir():
+        raise _cannot(out, f"{place} is not a folder; allowed is a folder")
+    if not os.access(place, os.W_OK, effective_ids=True):
+        raise _cannot(out, f"{place} is read-only; allowed is a folder to write in")
+    folders = {name.partition("/")[0] for name in files if "/" in name}
+    taken = {name for name in folders if (out / name).is_file()}.union(_present(out, files))
+    for name in sorted(taken - claimed(out, files) if taken else ()):
+        why = f"no {files[0]} there says that crosscheck wrote {name}"
+        raise _cannot(out, f"{why}; allowed is another folder")
 
 
 def _present(out: Path, patterns: tuple[str, ...]) -> list[str]:
-    return [name for pattern in patterns for name in glob.glob(pattern, root_dir=out)]
+    return [name for one in patterns for name in glob.glob(one, root_dir=out, recursive=True)]
 
 
 def _cannot(out: Path, why: str) -> InputError:
     return InputError(f"{out}: cannot be written: {why}")
 
 
-def _remove_abandoned(paths: Iterable[Path]) -> None:
-    """Remove those files and folders that a process left which was killed a day ago."""
-    for path in paths:
-        with suppress(FileNotFoundError):  # another process has just done with it
-            if time() - path.stat().st_mtime > DAY:
-                shutil.rmtree(path) if path.is_dir() else path.unlink()
-
-
-@contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """A path to write to: what is there when the block ends replaces `path`; if the block fails or
-    is interrupted, `path` stays as it was."""
-    beside = f".{path.name}."
-    part = path.with_name(f"{beside}{os.getpid()}.part")
-    _remove_abandoned(path.parent.glob(f"{glob.escape(beside)}*.part"))
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Write a file, text as UTF-8. Where that fails or is interrupted it stays as it was."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        yield part
+        part.write_bytes(content.encode() if isinstance(content, str) else content)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file as UTF-8."""
-    with whole_file(path) as part:
-        part.write_text(text, encoding="utf-8")
 
 
 def csv_text(rows: Iterable[Iterable[object]]) -> str:
@@ -145,29 +97,25 @@ def published(out: Path, files: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     files  names or patterns of those that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes."""
     check_writable(out, files)
-    beside = f".{out.name}.part-"
-    place, prefix = (out, ".part-") if out.is_dir() else (out.parent, beside)
+    # inside where that exists: its parent need not be writable, nor on the same file system
+    place, prefix = (out, ".part-") if out.is_dir() else (out.parent, f".{out.name}.part-")
     place.mkdir(parents=True, exist_ok=True)
-    _remove_abandoned((*out.glob(".part-*"), *out.parent.glob(f"{glob.escape(beside)}*")))
     with tempfile.TemporaryDirectory(prefix=prefix, dir=place) as folder:
         scratch = Path(folder)
         yield scratch
-        made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
-        made.sort(key=lambda name: str(name) != files[0])  # first what claims others
-        ours = claimed(out, files)
-        for name in made:
+        made = [str(p.relative_to(scratch)) for p in scratch.rglob("*") if p.is_file()]
+        left = claimed(out, files).difference(made)
+        for name in sorted(made, key=lambda name: name != files[0]):  # first what claims others
             (out / name).parent.mkdir(parents=True, exist_ok=True)
             os.replace(scratch / name, out / name)
-        for name in ours - set(map(str, made)):
+        for name in left:
             (out / name).unlink(missing_ok=True)
-        for folder in (*_present(out, FURTHER), *OWN_FOLDERS):
-            with suppress(OSError):  # absent, or holds something
-                (out / folder).rmdir()
+            with suppress(OSError):  # holds something
+                os.removedirs((out / name).parent)
 
 
 def publish(out: Path, contents: Mapping[str, str | bytes], files: tuple[str, ...] = ()) -> None:
     """Leave contents by name in `out`, whole, all or none; `files` as for `published`, or these."""
     with published(out, files or tuple(contents)) as folder:
         for name, content in contents.items():
-            data = content.encode() if isinstance(content, str) else content
-            (folder / name).write_bytes(data)
+            write_whole(folder / name, content)

@@ -28,7 +28,7 @@ from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
 from comparisons.output.plausibility import warnings_about, warnings_about_result
-from comparisons.output.result_json import result_of
+from comparisons.output.result import result_of
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments, dimension_of
 from comparisons.scenes.surface import surface_of

@@ -7,6 +7,8 @@ curves, such as half_plane:
     half_plane/x, …                   [m], [Pa] columns of contact.csv: CURVES
     half_plane/sx (friction 0.1), …   [Pa] stresses (m, k) at the points: COMPONENTS; in the file in
                                       single precision
+    trace_x, trace_height             [m] of a rough surface, as read or made
+    profile_x, profile_height         [m] the same as pressed, before any running-in
     outline                           JSON: schema, and answers from outside as they were read,
                                       whose arrays are a0, a1, …"""
 
@@ -18,11 +20,13 @@ from typing import Self
 
 import numpy as np
 
+from analytic.profile import Profile
 from analytic.stress_state import StressState
 from comparisons.common.cache import decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
+from comparisons.scenes.surface import SceneSurface
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.show import answers_of
 
@@ -52,13 +56,15 @@ class RunArrays:
             for friction, level in levels.items() if run.window is not None else ():
                 for name in COMPONENTS:
                     arrays[_stress(folder, name, friction)] = getattr(level.stress.field, name)
+        for name, profile in traces_of(run.problem.surface).items():
+            arrays |= {f"{name}_x": profile.x, f"{name}_height": profile.height}
         return cls(arrays, answers_of(run))
 
     @classmethod
     def read(cls, folder: Path) -> Self:
         """Those in a run's folder. Raises InputError, one line, where there are none."""
         path = folder / FILE
-        remedy = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes it"
+        remedy = "allowed is what this version of crosscheck wrote: run the scene again"
         try:
             with np.load(path, allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}
@@ -69,7 +75,7 @@ class RunArrays:
             raise InputError(f"{folder}: holds no {FILE}; {remedy}") from None
         except Exception as error:  # zipfile, zlib, numpy and json have errors of their own
             raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {remedy}") from None
-        raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {remedy}")
+        raise InputError(f"{path}: schema: is {outline['schema']}; {remedy}")
 
     def write(self, path: Path) -> None:
         """Write run.npz; stresses take half of the space so, and compress to nine tenths only."""
@@ -101,9 +107,21 @@ class RunArrays:
         tau1 = StressState(*parts).tau1
         return places | dict(zip(COMPONENTS, parts, strict=True)) | {"tau1": tau1}
 
+    def trace(self) -> Profile:
+        """That of a rough surface, as read or made."""
+        return Profile(self.arrays["trace_x"], self.arrays["trace_height"])
+
     def _folder(self, model: str, friction: float) -> str:
         own = _further(model, friction)
         return own if f"{own}/x" in self.arrays else model
+
+
+def traces_of(surface: SceneSurface) -> dict[str, Profile]:
+    """A rough surface's trace as read or made, and its profile as pressed, before it is run in."""
+    if surface.profile is None:
+        return {}
+    pressed = surface.profile if surface.run_in is None else surface.run_in.before
+    return {"trace": surface.info.trace, "profile": pressed}
 
 
 def levels_by_folder(run: Run) -> dict[str, dict[float, Level]]:

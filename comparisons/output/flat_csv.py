@@ -22,15 +22,13 @@ from comparisons.figures.quantity import LABELS
 from comparisons.judging import contact
 from comparisons.judging.study import LADDER
 from comparisons.judging.verdict.within import rounded_up
-from comparisons.output.record import read_result
-from comparisons.output.result_json import Result
+from comparisons.output.result import FILE, Result, read_result
 from comparisons.output.terminal import first_lines, plain_table, plain_text
 from comparisons.studies import meaning
 
 if TYPE_CHECKING:
     from rich.console import Group
 
-FILE = "result.json"
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 COLUMNS = (
     *("run", "scene", "title", "study", "quantity", "unit", "source", "against", "friction"),
@@ -47,9 +45,9 @@ def tidy_rows(folders: Iterable[Path]) -> list[Row]:
     line on standard error.
     Raises InputError, one line, for a folder without runs, and where no result is one."""
     rows, wrong = [], []
-    for path in _results(folders):
+    for folder in _runs(folders):
         try:
-            rows += rows_of(read_result(path), one_line(str(path.parent)))
+            rows += rows_of(read_result(folder), one_line(str(folder)))
         except InputError as error:
             wrong.append(error)
     if not rows:
@@ -84,19 +82,18 @@ def check_place(path: Path) -> None:
         raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
 
 
-def _results(folders: Iterable[Path]) -> list[Path]:
-    """Every result in or below the folders, once, in the order of their paths."""
-    results: dict[Path, Path] = {}
+def _runs(folders: Iterable[Path]) -> list[Path]:
+    """The folder of every run in or below the folders, once, in the order of their paths."""
+    runs: dict[Path, Path] = {}
     for folder in folders:
-        if not folder.is_dir():
-            raise InputError(f"{folder}: is no folder; allowed is one that runs have left")
-        every = sorted(folder.rglob(FILE))  # what is hidden is being written
+        every = sorted(folder.rglob(FILE))
+        # what is hidden is being written
         below = [p for p in every if "/." not in f"/{p.relative_to(folder).as_posix()}"]
         if not below:
             raise InputError(f"{folder}: holds no run; allowed is a folder with {FILE} below it")
         for path in below:
-            results.setdefault(path.resolve(), path)
-    return list(results.values())
+            runs.setdefault(path.resolve(), path.parent)
+    return list(runs.values())
 
 
 def rows_of(result: Result, run: str) -> list[Row]:

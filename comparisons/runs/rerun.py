@@ -7,22 +7,28 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from analytic.surface.readers.dropouts import MeasuredProfile
 from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.provenance import digest
+from comparisons.figures.figure import Findings
 from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of, movement
-from comparisons.judging.study import CONVERGED, Run
-from comparisons.output.arrays import RunArrays
-from comparisons.output.record import Record, read_record
-from comparisons.output.result_json import Result, result_of
+from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
+from comparisons.models.problem import MOST_LEVELS, Levels
+from comparisons.output.arrays import FILE as ARRAYS
+from comparisons.output.result import BUILT_OTHERWISE, FILE, Result, read_result, result_of
 from comparisons.output.terminal import STYLES, plain_table
 from comparisons.runs.run import Known, run
+from comparisons.scenes.scene import Origin, Scene
+from comparisons.scenes.surface import KnownTrace, surface_of
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
 
 Pair = tuple[object, object]
+ADDED = ("name", "profile_info")  # to the tables of a scene in result.json
 DIGITS = 9  # of a figure: enough to see what moved by more than rounding
 
 
@@ -30,13 +36,21 @@ DIGITS = 9  # of a figure: enough to see what moved by more than rounding
 class Repetition:
     """A repeated run."""
 
-    record: Record
+    result: Result  # as recorded
     outcome: Run
     movement: Movement  # of its figures
-    levels: tuple[int, int]  # of each model, recorded and repeated
     # versions and properties of the machine that are not the recorded ones, both
     other: dict[str, Pair]
-    bits: bool  # whether every recorded hash came out again: pressures equal to the last bit
+
+    @property
+    def levels(self) -> tuple[int, int]:
+        """Of each model, recorded and repeated."""
+        return self.result.record["levels"], self.outcome.record["levels"]
+
+    @property
+    def bits(self) -> bool:
+        """Whether every recorded hash came out again: pressures equal to the last bit."""
+        return self.outcome.record["hashes"] == self.result.record["hashes"]
 
     @property
     def exit_status(self) -> ExitStatus:
@@ -49,7 +63,7 @@ class Repetition:
         """For JSON."""
         return {
             "schema": 1,
-            "scene": self.record.scene.name,
+            "scene": self.outcome.problem.scene.name,
             "converged": self.outcome.converged,
             **asdict(self.movement),
             "beyond": len(self.movement.beyond),
@@ -64,25 +78,56 @@ def rerun(
 ) -> Repetition:
     """Repeat the run in a folder, which is only read; `out` keeps the repetition.
     Raises InputError for a folder without a sound record, or one that may not be written to."""
-    record = read_record(folder)
+    result = read_result(folder)
+    scene, known = _posed(folder, result)
     if out is not None:
         if out.resolve().is_relative_to(folder.resolve()):
             raise InputError(f"--out: {out} is in the recorded folder; allowed is another folder")
         check_writable(out)
-    answers = None
-    if record.scene.answers:  # as they were read: their files may have changed or gone
-        answers = RunArrays.read(folder).answers
-    known = Known(record.surface, answers, record.levels)
-    outcome = run(record.scene, out, record.models, callback, known=known)
-    now = outcome.record
+    outcome = run(scene, out, result.models, callback, known=known)
+    before, now = (one["versions"] | one["machine"] for one in (result.record, outcome.record))
+    names = [name for name in before | now if before.get(name) != now.get(name)]
     return Repetition(
-        record=record,
+        result=result,
         outcome=outcome,
-        movement=movement(_items(record.result), _items(result_of(outcome))),
-        levels=(record.levels.models, now["levels"]),
-        other=_unlike(record.versions, now["versions"]) | _unlike(record.machine, now["machine"]),
-        bits=now["hashes"] == record.hashes,
+        movement=movement(_items(result), _items(result_of(outcome))),
+        other={name: (before.get(name), now.get(name)) for name in names},
     )
+
+
+def _posed(folder: Path, result: Result) -> tuple[Scene, Known]:
+    """The scene of a recorded run, and what was found out then: surface and answers as they were
+    read, for their files may have changed or gone; levels as many as figures took. Raises
+    InputError where that cannot be."""
+    path = folder / FILE
+    tables = {n: part for n, part in result.scene.items() if n not in ADDED and part is not None}
+    try:
+        scene = Scene.of(tables, Origin(one_line(result.scene["name"]), folder, str(path)))
+        trace = None if scene.profile is None else _trace(folder, result)
+        cost = result.findings.get(MODEL_ERROR, Findings()).table("cost")
+        effects = None if cost is None else cost.columns["levels"].values[0]
+        levels = Levels(result.record["levels"], effects)
+        for known in (levels.models, effects or 1):
+            if known not in range(1, MOST_LEVELS + 1):
+                allowed = f"allowed is from 1 to {MOST_LEVELS}"
+                raise InputError(f"{path}: levels: is {known!r}; {allowed}")
+        answers = result.arrays.answers if scene.answers else None
+        return scene, Known(surface_of(scene, trace), answers, levels)
+    except InputError:
+        raise
+    except BUILT_OTHERWISE as error:
+        raise InputError(f"{path}: is no record of a run ({error!r}); allowed is one") from error
+
+
+def _trace(folder: Path, result: Result) -> KnownTrace:
+    """The recorded trace, if it is still what was recorded."""
+    trace, info = result.arrays.trace(), result.scene["profile_info"]
+    if digest(trace.x, trace.height) != result.record["hashes"]["trace"]:
+        what = "has another SHA-256 than recorded; allowed is what was recorded"
+        raise InputError(f"{folder / ARRAYS}: trace: {what}")
+    how = {name: info[name] for name in ("format", "place", "bridged", "trimmed")}
+    stretch = info["stretch"] and tuple(info["stretch"])
+    return KnownTrace(MeasuredProfile(profile=trace, stretch=stretch, **how), info["sha256"])
 
 
 def _items(result: Result) -> dict[str, Item]:
@@ -108,11 +153,6 @@ def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
             yield from _numbers(item, f"{path}[{number}]")
     elif isinstance(table, int | float):
         yield path, table
-
-
-def _unlike(before: dict, now: dict) -> dict[str, Pair]:
-    names = dict.fromkeys([*before, *now])
-    return {n: (before.get(n), now.get(n)) for n in names if before.get(n) != now.get(n)}
 
 
 def rerun_summary(repetition: Repetition) -> "RenderableType":

@@ -2,6 +2,7 @@
 
 In: a scene. Out: a finished run, and its folder."""
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -10,7 +11,13 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
-from comparisons.common.errors import InputError, SceneError, SolverError, check_finite_elements
+from comparisons.common.errors import (
+    InputError,
+    SceneError,
+    SolverError,
+    check_finite_elements,
+    one_line,
+)
 from comparisons.common.files import unfinished
 from comparisons.common.processes import cores
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
@@ -19,6 +26,8 @@ from comparisons.common.provenance import (
     LEVEL_CODE,
     digest,
     key_of,
+    machine,
+    made,
     program_code,
     revision,
     versions,
@@ -40,7 +49,7 @@ from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
-from comparisons.output.record import record_of
+from comparisons.output.arrays import traces_of
 from comparisons.runs.long import expected, told
 from comparisons.runs.refinement import announce, refined
 from comparisons.scenes.scene import Scene
@@ -219,8 +228,7 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise
-    record = record_of(problem, solved.runs, _hashes(solved, findings))
-    return Run(solved, findings, record, out, STUDIES)
+    return Run(solved, findings, record_of(solved, findings), out, STUDIES)
 
 
 def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:
@@ -245,15 +253,32 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
     return Cache(unfinished(out, "run"), key, kinds_of(Level))
 
 
-def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
-    """Of pressures, of the run-in surface, and of the files of answers."""
-    hashes: dict[str, object] = {
-        f"{name}_pressure": digest(*(level.solution.pressure for _, level in solved.contacts(name)))
-        for name in solved.runs
+def record_of(solved: Solved, findings: Mapping[str, Findings]) -> dict:
+    """What a repetition needs beside scene, figures and arrays."""
+    scene = solved.problem.scene
+    return {
+        "made": made(),
+        "versions": versions(),
+        "machine": machine(),
+        "seed": scene.profile and scene.profile.seed,
+        "hashes": _hashes(solved, findings),
+        "levels": max(len(run.levels) for run in solved.runs.values()),
+        "command": one_line(" ".join(sys.argv[1:])) or None,
     }
-    run_in = solved.problem.surface.run_in
-    if run_in is not None:
-        hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
+
+
+def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
+    """Of trace and profile, pressures, the run-in surface, and the files of answers."""
+    surface = solved.problem.surface
+    hashes: dict[str, object] = {
+        name: digest(profile.x, profile.height) for name, profile in traces_of(surface).items()
+    }
+    for name in solved.runs:
+        pressures = (level.solution.pressure for _, level in solved.contacts(name))
+        hashes[f"{name}_pressure"] = digest(*pressures)
+    if surface.run_in is not None:
+        run_in = surface.run_in.profile
+        hashes["run_in_profile"] = digest(run_in.x, run_in.height)
     for files in findings["answers"].series if "answers" in findings else ():
         if files.name == "files":
             hashes[f"answer_{files.source}"] = list(files.columns["sha256"].values)

@@ -1,6 +1,7 @@
-"""The files of a finished run: curves, fields, mesh, result, record; then the report."""
+"""The files of a finished run: curves, fields, mesh, arrays, result; then the report."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -8,9 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.common.errors import one_line
-from comparisons.common.files import RECORD, REPORT, published, write_whole
+from comparisons.common.files import PDF, REPORT, published, write_whole
 from comparisons.common.progress import ProgressCallback, Step
-from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
 from comparisons.drawing.style import load_matplotlib
@@ -18,7 +18,8 @@ from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
-from comparisons.output.result_json import content_of, result_of
+from comparisons.output.result import FILE as RESULT
+from comparisons.output.result import result_of
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh
 
@@ -43,13 +44,12 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
             files = study.files(outcome) if study.name in outcome.findings else {}
             for path, columns in files.items():
                 _write_csv(folder / path, ",".join(columns), *columns.values())
-        content = content_of(result_of(outcome))
-        (folder / "result.json").write_text(as_json(content), encoding="utf-8")
+        found = result_of(outcome)
         for key in (first, FILE):
             tasks.result(key)
-        files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-        record = outcome.record | {"files": [*files, RECORD, REPORT]}
-        (folder / RECORD).write_text(as_json(record), encoding="utf-8")
+        files = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
+        record = found.record | {"files": sorted([*files, RESULT, REPORT, PDF])}
+        replace(found, record=record).write(folder)
     callback("drawing the report")
     page = attempted("report", partial(_page, outcome))
     if drawn := isinstance(page, str):

@@ -28,7 +28,6 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, StressState
 from comparisons.cli import main
 from comparisons.common import tasks
-from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks
 from comparisons.drawing.style import Picture
 from comparisons.figures.quantity import MODELS, QUANTITIES
@@ -40,7 +39,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.output.page import page
 from comparisons.output.page.page import PICTURES
-from comparisons.output.record import record_of
+from comparisons.runs.run import record_of
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh, BlockSpec
 
@@ -161,13 +160,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
     sizes = dict.fromkeys(QUANTITIES, SAMPLING)
     with patch("comparisons.judging.effects.sampling.sampling_changes", lambda *_: sizes):
         findings = studied(STUDIES, solved, {}, Tasks())
-    hashes = {
-        f"{name}_pressure": digest(run.finest.solution.pressure)
-        for name, run in solved.runs.items()
-    }
-    return Run(
-        solved, findings, record_of(problem, solved.runs, hashes), Path("results/made"), STUDIES
-    )
+    return Run(solved, findings, record_of(solved, findings), Path("results/made"), STUDIES)
 
 
 @pytest.fixture(scope="session")

@@ -59,8 +59,8 @@ def solver(monkeypatch, tmp_path):
         summary=lambda outcome, details: "peak pressure agree", PLAIN={ord("µ"): "u"}
     )
     monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
-    monkeypatch.setattr("comparisons.output.result_json.result_of", lambda run: run.result)
-    monkeypatch.setattr("comparisons.output.result_json.content_of", lambda result: result)
+    monkeypatch.setattr("comparisons.output.result.result_of", lambda run: run.result)
+    monkeypatch.setattr("comparisons.output.result.content_of", lambda result: result)
     monkeypatch.setattr("comparisons.output.plausibility.warnings_about_result", lambda outcome: [])
     monkeypatch.chdir(tmp_path)
     return run

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from comparisons.common.files import claim, claimed, whole_file
+from comparisons.common.files import PDF, REPORT, write_whole
 
 BROWSERS = (
     *("chromium", "chromium-browser", "chromium-headless-shell", "chrome-headless-shell"),
@@ -43,12 +43,8 @@ def options(profile: str) -> list[str]:
 
 def print_report(folder: Path) -> Path:
     """Print a run's report.html into report.pdf beside it; its path. Raises NoPdfError."""
-    target = folder / "report.pdf"
-    if target.exists() and target.name not in claimed(folder):
-        raise NoPdfError(f"{target}: not printed: no record there says that crosscheck wrote it")
-    print_pdf(folder / "report.html", target)
-    claim(folder, target.name)
-    return target
+    print_pdf(folder / REPORT, folder / PDF)
+    return folder / PDF
 
 
 def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
@@ -59,19 +55,17 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
             f"{target}: not printed: no Chromium or Chrome starts here; "
             f"{REMEDY} gets one (of Ubuntu: snap install chromium), or {by_hand}"
         )
-    with (
-        tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile,
-        whole_file(target) as part,
-    ):
-        printing = "--no-pdf-header-footer", f"--print-to-pdf={part.resolve()}"
-        command = [program, *options(profile), *printing, page.resolve().as_uri()]
+    with tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as scratch:
+        part = Path(scratch, target.name)
+        printing = "--no-pdf-header-footer", f"--print-to-pdf={part}"
+        command = [program, *options(scratch), *printing, page.resolve().as_uri()]
         silent = {"capture_output": True, "stdin": subprocess.DEVNULL}
         try:
             ended = subprocess.run(command, timeout=patience, **silent).returncode
             why = f"ended with {ended} and left no PDF"
+            content = part.read_bytes() if part.is_file() else b""
         except subprocess.TimeoutExpired:
-            why = f"did not end within {patience:g} s"
-            part.unlink(missing_ok=True)
-        content = part.read_bytes() if part.is_file() else b""
-        if not (content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")):
-            raise NoPdfError(f"{target}: not printed: {program} {why}; {by_hand}")
+            why, content = f"did not end within {patience:g} s", b""
+    if not (content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")):
+        raise NoPdfError(f"{target}: not printed: {program} {why}; {by_hand}")
+    write_whole(target, content)

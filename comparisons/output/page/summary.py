@@ -21,8 +21,7 @@ from comparisons.judging.study import MODEL_ERROR
 from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
-from comparisons.output.record import BUILT_OTHERWISE, read_result
-from comparisons.output.result_json import Result
+from comparisons.output.result import BUILT_OTHERWISE, Result, read_result
 from comparisons.studies import problem
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ class Report:
 def read_report(folder: Path, pdf: bool = False) -> Report:
     """The run in a folder. Raises InputError where there is none; for `pdf`, where its page is
     missing or cannot be printed there."""
-    result, page = read_result(folder / "result.json"), folder / "report.html"
+    result, page = read_result(folder), folder / "report.html"
     if pdf:
         check_writable(folder, ())
         if not page.is_file():

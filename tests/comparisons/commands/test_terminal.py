@@ -16,7 +16,7 @@ from scenes import PROJECT, STEADY, as_toml, python
 
 from comparisons.cli import app, main
 from comparisons.commands import arguments
-from comparisons.output.result_json import content_of, result_of
+from comparisons.output.result import content_of, result_of
 from comparisons.scenes.files import scene_names
 
 pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process

@@ -4,13 +4,12 @@ import json
 import os
 import tempfile
 from pathlib import Path
-from time import time
 
 import pytest
 from scenes import python
 
 from comparisons.common.errors import InputError
-from comparisons.common.files import DAY, check_writable, claim, claimed, published, unfinished
+from comparisons.common.files import check_writable, published, unfinished
 
 NOBODY = 65534
 
@@ -22,10 +21,10 @@ def fill(folder, names, text="new"):
 
 
 def fill_as_run(folder, names, text="new"):
-    """The same with the record of a run that wrote them."""
+    """The same with the result of a run that wrote them."""
     fill(folder, names, text)
-    record = {"hashes": {}, "files": [*names, "record.json"]}
-    (folder / "record.json").write_text(json.dumps(record))
+    result = {"schema": 3, "record": {"files": ["result.json", *names]}, "text": text}
+    (folder / "result.json").write_text(json.dumps(result))
 
 
 def test_files_appear_at_the_end(tmp_path):
@@ -41,10 +40,10 @@ def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_pat
     out = tmp_path / "results"
     further = [f"whole/friction_{friction}/stress.vtu" for friction in ("0.1", "0.2")]
     fill(out, ["notes.txt"], "old")
-    fill_as_run(out, ["result.json", "finite_element/mesh.msh", *further], "old")
+    fill_as_run(out, ["finite_element/mesh.msh", *further], "old")
     with published(out) as scratch:
-        fill_as_run(scratch, ["result.json", further[0]])
-    assert (out / "result.json").read_text() == "new"
+        fill_as_run(scratch, [further[0]])
+    assert '"text": "new"' in (out / "result.json").read_text()
     assert (out / "notes.txt").read_text() == "old"
     assert not (out / "finite_element").exists()
     assert (out / further[0]).read_text() == "new"
@@ -54,13 +53,13 @@ def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_pat
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
 def test_a_failure_changes_nothing(tmp_path, error):
     out = tmp_path / "results"
-    fill_as_run(out, ["result.json"], "old")
+    fill_as_run(out, ["run.npz"], "old")
     with pytest.raises(error), published(out) as scratch:
-        fill(scratch, ["result.json"])
+        fill(scratch, ["run.npz"])
         raise error
-    assert (out / "result.json").read_text() == "old"
+    assert (out / "run.npz").read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["results"]
-    assert {p.name for p in out.iterdir()} == {"result.json", "record.json"}
+    assert {p.name for p in out.iterdir()} == {"result.json", "run.npz"}
 
 
 @pytest.mark.parametrize(
@@ -68,8 +67,8 @@ def test_a_failure_changes_nothing(tmp_path, error):
     [
         ("taken", "taken", "not a folder"),
         ("taken", "taken/deeper", "not a folder"),
-        ("half_plane", ".", "half_plane is not a folder; allowed is a folder"),
-        ("result.json/mine", ".", r"result\.json is a folder"),
+        ("half_plane", ".", "no result.json there says that crosscheck wrote half_plane"),
+        ("result.json/mine", ".", r"no result.json there says that crosscheck wrote result.json"),
     ],
 )
 def test_what_is_in_the_way_is_refused_and_stays(tmp_path, taken, out, why):
@@ -114,53 +113,40 @@ def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
 
 @pytest.mark.parametrize("name", ["report.pdf", "run_in_profile.csv", "finite_element/stress.vtu"])
 def test_somebody_elses_file_is_neither_replaced_nor_removed(tmp_path, name):
-    fill_as_run(tmp_path, ["result.json"], "old")
+    fill_as_run(tmp_path, [], "old")
     fill(tmp_path, [name], "mine")
-    with pytest.raises(InputError, match=f"no record there says that crosscheck wrote {name}"):
+    with pytest.raises(InputError, match=f"no result.json there says that crosscheck wrote {name}"):
         check_writable(tmp_path)
     with pytest.raises(InputError), published(tmp_path) as scratch:
-        fill_as_run(scratch, ["result.json"])
+        fill_as_run(scratch, [])
     assert (tmp_path / name).read_text() == "mine"
-    assert (tmp_path / "result.json").read_text() == "old"
+    assert '"text": "old"' in (tmp_path / "result.json").read_text()
 
 
-@pytest.mark.parametrize("record", ["", "[]", "{", '{"schema": 2}', '{"hashes": {}, "files": 3}'])
-def test_a_strange_record_claims_nothing(tmp_path, record):
-    fill(tmp_path, ["result.json"], "mine")
-    (tmp_path / "record.json").write_text(record)
-    with pytest.raises(InputError, match="no record there says"):
+@pytest.mark.parametrize("result", ["", "[]", "{", '{"figures": []}', '{"schema": 3, "record": 3}'])
+def test_a_strange_result_claims_nothing(tmp_path, result):
+    (tmp_path / "result.json").write_text(result)
+    with pytest.raises(InputError, match=r"no result.json there says"):
         check_writable(tmp_path)
-
-
-def test_a_file_added_later_is_claimed(tmp_path):
-    fill_as_run(tmp_path, ["result.json"])
-    fill(tmp_path, ["report.pdf"])
-    claim(tmp_path, "report.pdf")
-    assert claimed(tmp_path) == {"result.json", "record.json", "report.pdf"}
 
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from comparisons.common.files import published, whole_file
-out = Path(sys.argv[1])
-with whole_file(out.parent / "page.html") as part, published(out) as scratch:
-    part.write_text("half")
+from comparisons.common.files import published
+with published(Path(sys.argv[1])) as scratch:
     (scratch / "result.json").write_text("half")
     os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
 @pytest.mark.parametrize("exists", [False, True])
-def test_what_a_killed_run_left_is_hidden_and_goes_after_a_day(tmp_path, exists):
+def test_what_a_killed_run_left_is_hidden(tmp_path, exists):
     out = tmp_path / "out"
     if exists:
         out.mkdir()
     python("-c", KILLED, out)
-    assert not (out / "result.json").exists() and not (tmp_path / "page.html").exists()
-    [scratch] = tmp_path.rglob("*.part-*")
-    for age in (0.0, 2.0 * DAY):
-        os.utime(scratch, 2 * (time() - age,))
-        with published(out) as folder:
-            fill_as_run(folder, ["result.json"])
-        assert scratch.exists() == (age < DAY)
+    assert not (out / "result.json").exists() and [*tmp_path.rglob(".*part-*/result.json")]
+    with published(out) as folder:
+        fill_as_run(folder, [])
+    assert [p.name for p in out.iterdir() if not p.name.startswith(".")] == ["result.json"]

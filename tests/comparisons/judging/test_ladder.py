@@ -14,7 +14,7 @@ from comparisons.figures.figure import Statement
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.ladder import study as ladder
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT
-from comparisons.output.result_json import content_of, result_of
+from comparisons.output.result import content_of, result_of
 
 STIFFER = 1.01
 

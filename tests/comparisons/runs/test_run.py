@@ -27,8 +27,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.output.page.tables.verification import commands
-from comparisons.output.record import read_result
-from comparisons.output.result_json import content_of, result_of
+from comparisons.output.result import FILE, content_of, read_result, result_of
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import level_cache, planned, run, solve
 from comparisons.scenes.scene import Scene
@@ -132,12 +131,14 @@ class TestSmooth:
 
     def test_files(self, smooth):
         out = smooth.directory
-        assert json.loads((out / "result.json").read_text()) == content_of(result_of(smooth))
-        read = read_result(out / "result.json")
+        read, content = read_result(out), content_of(result_of(smooth))
+        written = {str(p.relative_to(out)) for p in out.rglob("*") if p.is_file()}
+        assert {*read.record["files"]} == {*written, "report.pdf"}
+        content["record"] |= {"files": read.record["files"]}
+        assert json.loads((out / "result.json").read_text()) == content
         assert read.figures == smooth.figures
         assert read.findings == {n: replace(f, data=None) for n, f in smooth.findings.items()}
-        record = json.loads((out / "record.json").read_text())
-        assert record["versions"]["fenics-dolfinx"]
+        assert read.record["versions"]["fenics-dolfinx"]
         assert "<html" in (out / "report.html").read_text()
         for model in MODELS:
             table = np.genfromtxt(
@@ -172,7 +173,7 @@ def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
     )
     done = python("-c", code)
     assert done.returncode == 0, done.stderr
-    result = read_result(tmp_path / "out" / "result.json")
+    result = read_result(tmp_path / "out")
     alone = result.figures.of(study="contact")
     assert alone == smooth.figures.of(study="contact", source="half_plane")
     assert {"comparison", "model_error"}.isdisjoint(result.findings)
@@ -338,7 +339,7 @@ def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, monkeyp
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
     monkeypatch.setattr("comparisons.judging.model_error.refinement._settled", lambda *_: False)
-    assert whole_levels(read_result(both / "result.json").findings) == 2
+    assert whole_levels(read_result(both).findings) == 2
     before = contents(both)
     repetition = rerun(both)
     assert repetition.levels[1] > 2
@@ -355,7 +356,7 @@ def test_out_keeps_the_repetition(half_plane_run, tmp_path):
     again = tmp_path / "again"
     rerun(half_plane_run.directory, again)
     assert set(contents(again)) == set(contents(half_plane_run.directory))
-    assert json.loads((again / "record.json").read_text())["levels"] == 3
+    assert read_result(again).record["levels"] == 3
 
 
 @pytest.mark.parametrize("out", [".", "deeper/again"])
@@ -386,13 +387,13 @@ def test_the_lines_of_a_report_work_in_its_folder(
     ],
 )
 def test_a_tampered_figure_is_found(spoilable, capsys, part, status, words):
-    stated = read_result(spoilable / "result.json").figures.one(quantity="peak_pressure").numerical
+    stated = read_result(spoilable).figures.one(quantity="peak_pressure").numerical
     assert 1e-5 < stated < 1e-4
 
     def alter(result):
         peak_of(result)["value"] *= 1.0 + part
 
-    change(spoilable / "result.json", alter)
+    change(spoilable / FILE, alter)
     assert main(["rerun", str(spoilable)]) == status
     printed = capsys.readouterr().out
     [row] = [line for line in printed.splitlines() if line.startswith("contact.peak_pressure")]
@@ -400,7 +401,7 @@ def test_a_tampered_figure_is_found(spoilable, capsys, part, status, words):
 
 
 def test_other_versions_are_named(spoilable):
-    change(spoilable / "record.json", lambda record: record["versions"].update(numpy="0.1"))
+    change(spoilable / FILE, lambda r: r["record"]["versions"].update(numpy="0.1"))
     repetition = rerun(spoilable)
     assert repetition.other == {"numpy": ("0.1", versions()["numpy"])}
     console = Console(width=120, file=io.StringIO(), record=True)
@@ -416,15 +417,14 @@ def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
         "resolution": {"levels": 2, "pitch": 1e-4},
     }
     folder = recorded(tmp_path / "out", tables)
-    record = json.loads((folder / "record.json").read_text())
-    assert record["levels"] == 1
+    assert read_result(folder).record["levels"] == 1
     assert rerun(folder).levels == (1, 1)
     open_ended = tables | {"budget": {"time": 300.0}, "tolerance": {"peak_pressure": 2e-3}}
     folder = recorded(tmp_path / "more", open_ended)
-    change(folder / "record.json", lambda record: record["scene"]["budget"].update(time=1e-6))
+    change(folder / FILE, lambda result: result["scene"]["budget"].update(time=1e-6))
     repetition = rerun(folder)
     assert repetition.levels == (5, 5)
-    assert [row.name for row in repetition.movement.moved] == ["scene.budget.time"]
+    assert repetition.movement.moved == ()
 
 
 class TestTrace:
@@ -449,12 +449,12 @@ class TestTrace:
         assert info.cutoff is not None and info.standard is not None
 
     def test_a_sample_that_changed_in_the_record_is_refused(self, folder, complaint):
-        def alter(record):
-            record["profile"]["trace"]["height"][7] += 1e-9
-
-        change(folder / "out" / "record.json", alter)
+        with np.load(folder / "out" / "run.npz") as file:
+            arrays = dict(file)
+        arrays["trace_height"][7] += 1e-9
+        np.savez(folder / "out" / "run.npz", **arrays)
         said = complaint("rerun", folder / "out")
-        assert "profile.trace: has another SHA-256 than recorded" in said
+        assert "run.npz: trace: has another SHA-256 than recorded" in said
 
 
 def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
@@ -475,43 +475,37 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("file", "text", "words"),
+    ("text", "words"),
     [
-        ("record.json", None, "holds no record.json"),
-        ("result.json", None, "holds no result.json"),
-        ("record.json", "{" * 100_000, "record.json: is not JSON"),
-        ("record.json", "[]", "record.json: is no table"),
-        ("record.json", '{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
-        ("record.json", '{"schema": 2}', "record.json: is no record of a run"),
-        ("result.json", '{"schema": 2}', "is 2, of an earlier crosscheck; .* run the scene again"),
-        ("result.json", '{"schema": 3, "figures": 3, "scene": 4}', "result.json: is no result"),
+        (None, "holds no result.json"),
+        ("{" * 100_000, "result.json: is no result of a run"),
+        ("[]", "result.json: is no result of a run"),
+        ('{"schema": 2}', "schema: is 2; allowed is 3: run the scene again"),
+        ('{"schema": 3, "figures": 3, "scene": 4}', "result.json: is no result"),
     ],
 )
-def test_a_folder_without_a_whole_record_is_refused(spoilable, complaint, file, text, words):
-    path = spoilable / file
-    if text is None:
-        path.unlink()
-    else:
-        path.write_text(text)
+def test_a_folder_without_a_whole_result_is_refused(spoilable, complaint, text, words):
+    (spoilable / FILE).unlink() if text is None else (spoilable / FILE).write_text(text)
     said = complaint("rerun", spoilable)
     assert len(said) < 400
     assert re.search(words, said), said
 
 
+WAVES = {"kind": "sinusoid", "wavelength": 1e-5, "amplitude": 1e-7}  # of which no trace is kept
+
+
 @pytest.mark.parametrize(
     ("alter", "words"),
     [
-        (lambda r: r.update(models=["fem"]), "is no record of a run"),
-        (lambda r: r.update(levels=0), "levels: is 0; allowed is from 1 to 8"),
-        (lambda r: r.update(models=[]), "is no record of a run"),
-        (lambda r: r["scene"].pop("roller"), "record.json: roller: is missing"),
+        (lambda r: r["record"].update(levels=0), "levels: is 0; allowed is from 1 to 8"),
+        (lambda r: r["scene"].pop("roller"), "result.json: roller: is missing"),
         (lambda r: r["scene"]["load"].update(per_length=-1.0), "load.per_length: "),
-        (lambda r: r["scene"].update(profile={"kind": "sinusoid"}), "is no record of a run"),
-        (lambda r: r.pop("versions"), "is no record of a run .KeyError"),
+        (lambda r: r["scene"].update(profile=WAVES), "is no record of a run"),
+        (lambda r: r["record"].pop("versions"), "is no result of a run .KeyError"),
     ],
 )
 def test_a_record_that_cannot_be_is_refused(spoilable, alter, words):
-    change(spoilable / "record.json", alter)
+    change(spoilable / FILE, alter)
     with pytest.raises(InputError, match=words):
         rerun(spoilable)
 
@@ -534,14 +528,14 @@ def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(
     spoilable, alter, monkeypatch
 ):
     monkeypatch.setattr("comparisons.runs.rerun.run", None)
-    change(spoilable / "result.json", alter)
+    change(spoilable / FILE, alter)
     with pytest.raises(InputError, match=r"result.json: .*; allowed is "):
         rerun(spoilable)
 
 
 def test_no_such_folder(tmp_path, complaint):
     said = complaint("rerun", tmp_path / "none")
-    assert "none: is no folder; allowed is the folder of a finished run" in said
+    assert "none: holds no result.json; allowed is the folder of a finished run" in said
 
 
 @pytest.mark.parametrize(

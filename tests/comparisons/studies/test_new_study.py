@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import pytest
 from scenes import PROJECT
 
-from comparisons.output.record import read_result
+from comparisons.output.result import read_result
 
 STUDY = '''
 """The mean pressure in the contact."""
@@ -124,10 +124,10 @@ def command(folder: Path, *arguments: str, status: int = 0) -> str:
 
 
 def test_its_figures_are_results(folder):
-    figures = read_result(folder / "out/result.json").figures.of(study="mean_pressure")
+    figures = read_result(folder / "out").figures.of(study="mean_pressure")
     mean, ratio = figures
     assert (mean.quantity, ratio.against, ratio.friction) == ("mean_pressure", "exact", 0.1)
-    hertz = read_result(folder / "out/result.json").figures.of(source="hertz")
+    hertz = read_result(folder / "out").figures.of(source="hertz")
     peak = hertz.one(quantity="peak_pressure").value
     assert mean.value == pytest.approx(0.25 * math.pi * peak, rel=2e-3)
     assert abs(ratio.value) <= ratio.numerical < 0.01 and ratio.verdict == "agree"

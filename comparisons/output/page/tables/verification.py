@@ -156,8 +156,6 @@ def record_rows(run: Run) -> list[tuple[str, str]]:
     rows += [(part, _listed(record[part])) for part in ("versions", "machine")]
     if record.get("seed") is not None:
         rows.append(("seed", str(record["seed"])))
-    if record.get("profile"):
-        rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
     for name, value in (record.get("hashes") or {}).items():
         for model, words in HYPHENATED.items():
             name = name.replace(f"{model}_", f"the {words} model's ")

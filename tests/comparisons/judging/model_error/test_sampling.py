@@ -1,7 +1,5 @@
 """What a figure owes to the sampling of the trace: stated, and held against finer samples."""
 
-import json
-
 import numpy as np
 import pytest
 from scenes import KNOWN_STEEL, half_plane_at, run_of
@@ -14,7 +12,7 @@ from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.level import Solution
 from comparisons.models.problem import Levels
-from comparisons.output.result_json import content_of, read_content, result_of
+from comparisons.output.result import read_result, result_of
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 
@@ -83,7 +81,7 @@ def flank(tmp_path):
     return solved
 
 
-def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank):
+def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank, tmp_path):
     run = flank(60, 51e-6)
     said = headline(run)
     assert said.within.size is None and said.kind == "inconclusive"
@@ -91,7 +89,8 @@ def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank):
     assert "tolerance" not in said.next
     [peak, _] = run.model_errors
     assert abs(peak.value) + peak.numerical < 2e-3  # half-planes are no worse on few samples
-    read = read_content(json.loads(json.dumps(content_of(result_of(run))))).figures
+    result_of(run).write(tmp_path)
+    read = read_result(tmp_path).figures
     assert read.one(study="model_error", quantity="peak_pressure").unknown == peak.unknown
 
 

@@ -15,7 +15,7 @@ from comparisons.output.page import page
 from comparisons.output.page.tables import verification
 
 RUN = ["run", "smooth", "--models", "half-plane", "--out", "out"]
-FILES = {"half_plane", "record.json", "result.json", "run.npz"}
+FILES = {"half_plane", "result.json", "run.npz"}
 # of the figures alone, without time and place
 FIGURES = re.compile(r'"figures": .*?"series"', re.DOTALL)
 KILLED = f"""

@@ -1,16 +1,14 @@
 """Answers from outside against a model: verdicts, uncertainties, what the run leaves of them."""
 
 import io
-import json
 
 import numpy as np
 import pytest
 from rich.console import Console
 from scenes import QUICK, resolved
 
-from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import tidy_rows
-from comparisons.output.record import read_result
+from comparisons.output.result import read_result
 from comparisons.output.terminal import summary
 from comparisons.runs.rerun import rerun
 from comparisons.runs.run import run
@@ -120,19 +118,18 @@ def test_measured_data_have_their_validation_comparison(answered, curve):
 def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
     section = curve(p=lambda p: 1.03 * p)
     outcome = answered(section, out=tmp_path / "out")
-    figures = read_result(tmp_path / "out/result.json").figures
+    result = read_result(tmp_path / "out")
     wanted = {"source": "other", "quantity": "peak_pressure", "against": "half_plane"}
-    figure = figures.one(study="answers", **wanted)
+    figure = result.figures.one(study="answers", **wanted)
     assert figure.verdict == "differ" and figure.friction == 0.0
-    record = json.loads((tmp_path / "out/record.json").read_text())
     [answer] = outcome.data("answers")["other"]
-    assert record["hashes"]["answer_other"] == [answer.sha256]
+    assert result.record["hashes"]["answer_other"] == [answer.sha256]
     rows = [r for r in tidy_rows([tmp_path / "out"]) if r["source"] == "other" and r["against"]]
     assert {"peak_pressure": "differ", "contact_length": "agree"}.items() <= {
         r["quantity"]: r["verdict"] for r in rows
     }.items()
     assert "Answers from outside" in (tmp_path / "out/report.html").read_text()
-    [same] = RunArrays.read(tmp_path / "out").answers["other"]
+    [same] = result.arrays.answers["other"]
     np.testing.assert_array_equal(same.x, answer.x)
     with open(section["file"], "w") as file:
         file.write("gone\n")

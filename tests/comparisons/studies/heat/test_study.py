@@ -13,7 +13,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.judging.presentation import lines_of, parts_of
 from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
-from comparisons.output.record import read_result
+from comparisons.output.result import read_result
 from comparisons.runs.run import run
 from comparisons.studies.heat import STUDY
 from comparisons.studies.heat.half_space import HEAT_QUANTITIES, HEATED, WITHOUT
@@ -56,7 +56,7 @@ def test_a_rough_trace_has_one_flash_temperature_by_both_models(rough):
 
 
 def test_figures_in_result_json(rough):
-    figures = read_result(rough.directory / "result.json").figures
+    figures = read_result(rough.directory).figures
     flash = figures.of(study="heat", quantity="flash_temperature")
     assert flash.one(against="finite_element").verdict == "agree"
     one, other = (flash.one(source=model, against=None) for model in MODELS)
@@ -147,7 +147,7 @@ def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
 
 
 def test_thermal_stresses_in_every_output(stressed):
-    result = read_result(stressed.directory / "result.json")
+    result = read_result(stressed.directory)
     stresses = result.figures.of(study="heat", source="half_plane", against=None)
     warm, cold = (stresses.one(quantity=f"sx_heated{name}") for name in ("", "_without_heat"))
     assert warm.value == 0.0 < cold.value and warm.place is None

@@ -15,7 +15,7 @@ from comparisons.figures.figure import Series
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
-from comparisons.output.record import read_result
+from comparisons.output.result import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
@@ -200,7 +200,7 @@ def test_a_run_says_it(tmp_path, capsys):
     page = (out / "report.html").read_text()
     words = " ".join(page.split())
     assert 'id="statistics"' in page and "below 0.0001, cutting above 0.3" in words
-    findings = read_result(out / "result.json").findings["statistics"]
+    findings = read_result(out).findings["statistics"]
     loads, (patches,) = findings.table("loads"), [s for s in findings.series if s.name == "patches"]
     assert findings.table("traces").columns["traces"].values == (4,)
     assert len(loads.rows()) == 7

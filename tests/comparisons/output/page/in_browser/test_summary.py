@@ -8,7 +8,7 @@ from scenes import WAVY_LAYER
 
 from comparisons.judging.study import Run
 from comparisons.output.page.summary import Report, cells_of, summary_page
-from comparisons.output.result_json import result_of
+from comparisons.output.result import result_of
 
 ENTER = 13
 

@@ -1,7 +1,10 @@
-"""result.json, schema 3: every figure with its meaning, series and statements, the verdict.
+"""What a run leaves in its folder: result.json, schema 3, and run.npz with its arrays.
 
-In: a finished run. Out: the content of its result.json; and back, what such a content says.
+In: a finished run, or the folder of one. Out: the `Result` that both give, and its files.
 
+    scene         as resolved, and what became of its profile
+    record        what a repetition needs beside it: when, where and by which revision the run was
+                  made, versions, machine, seed, hashes, levels, command, files of the folder
     figures[]     study, quantity, source, at, value, unit; against, scale, uncertainty, bounds,
                   verdict, parts, not_modelled, spread, place, levels, notes where there are any
     series[]      study, name, source, at; columns: values by name, units, uncertainty
@@ -9,12 +12,16 @@ In: a finished run. Out: the content of its result.json; and back, what such a c
 
 Units are SI. What is unknown is null; what is empty is left out."""
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from functools import cached_property
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from functools import cached_property, partial
 from math import inf
+from pathlib import Path
 
+from comparisons.common.errors import InputError
 from comparisons.common.numbers import finite
+from comparisons.common.provenance import as_json
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import (
     Column,
@@ -32,17 +39,21 @@ from comparisons.judging import contact
 from comparisons.judging.ladder.study import ESCALATE_TO, SUFFICES
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
 from comparisons.judging.verdict.headline import headline
+from comparisons.output.arrays import RunArrays
 from comparisons.studies import meaning
 
+FILE = "result.json"
 SCHEMA = 3
-KINDS = {"scene": dict, "record": dict, "within": int | float | None, "within_words": str}
-KINDS |= {"verdict": str, "why": str}
-RECORDED = ("made", "versions", "machine", "seed", "hashes")  # of record.json
+SAID = {"scene": dict, "record": dict, "within": int | float | None, "within_words": str}
+SAID |= {"verdict": str, "why": str}
+RECORDED = {"levels": int} | dict.fromkeys(("hashes", "machine", "versions"), dict)
+# What is raised where a content is built otherwise than a run writes it.
+BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
 
 @dataclass(frozen=True)
 class Result:
-    """What result.json says."""
+    """What a finished run and its folder both say."""
 
     scene: dict  # as resolved, SI units
     record: dict
@@ -52,16 +63,22 @@ class Result:
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
     findings: Mapping[str, Findings]  # by study
+    load: Callable[[], RunArrays] = field(compare=False, repr=False)
+
+    @cached_property
+    def arrays(self) -> RunArrays:
+        """Curves, stresses, traces. Raises InputError where a folder's cannot be read."""
+        return self.load()
 
     @cached_property
     def figures(self) -> Figures:
         return Figures(figure for study in self.findings.values() for figure in study.figures)
 
     @property
-    def models(self) -> list[str]:
+    def models(self) -> tuple[str, ...]:
         """Of half_plane, finite_element, those that were run."""
         solved = {figure.source for figure in self.figures.of(study=contact.NAME)}
-        return [name for name in MODELS if name in solved]
+        return tuple(name for name in MODELS if name in solved)
 
     @cached_property
     def model_errors(self) -> Figures:
@@ -79,18 +96,23 @@ class Result:
         """Which model suffices; empty where the run compares nothing."""
         return self.findings.get(LADDER, Findings())
 
+    def write(self, folder: Path) -> None:
+        """Write result.json."""
+        (folder / FILE).write_text(as_json(content_of(self)), encoding="utf-8")
+
 
 def result_of(run: Run) -> Result:
     said = headline(run)
     return Result(
         scene=run.problem.surface.as_dict(run.problem.scene),
-        record={name: run.record[name] for name in RECORDED},
+        record=run.record,
         within=said.within.size,
         within_words=said.within.sentence,
         verdict=said.kind,
         why=said.sentence,
         next=said.paste,
         findings=run.findings,
+        load=partial(RunArrays.of, run),
     )
 
 
@@ -99,7 +121,7 @@ def content_of(result: Result) -> dict:
     findings = result.findings.items()
     return {
         "schema": SCHEMA,
-        **{name: getattr(result, name) for name in KINDS},
+        **{name: getattr(result, name) for name in SAID},
         "next": list(result.next),
         "suffices": result.ladder.said(SUFFICES),
         "escalate_to": result.ladder.said(ESCALATE_TO),
@@ -114,21 +136,44 @@ def content_of(result: Result) -> dict:
     }
 
 
-def read_content(content: Mapping) -> Result:
-    """What a content says. Raises LookupError, TypeError or ValueError where it is built
-    otherwise."""
-    kinds = KINDS | dict.fromkeys(("figures", "series", "statements"), list)
-    for name, kind in kinds.items():
-        if not isinstance(content[name], kind):
-            raise TypeError(f"{name}: is {content[name]!r}")
+def read_result(folder: Path) -> Result:
+    """What a run has left in its folder. Raises InputError, one line, where it has left none."""
+    path = folder / FILE
+    try:
+        content = json.loads(path.read_bytes(), parse_constant=_no_number)
+        schema = content.get("schema")
+        if schema == SCHEMA:
+            return _result(content, folder)
+    except FileNotFoundError:
+        allowed = "allowed is the folder of a finished run"
+        raise InputError(f"{folder}: holds no {FILE}; {allowed}") from None
+    except (*BUILT_OTHERWISE, OSError, RecursionError) as error:
+        raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
+    raise InputError(f"{path}: schema: is {schema}; allowed is {SCHEMA}: run the scene again")
+
+
+def _no_number(name: str) -> None:
+    """Refuse NaN and the infinities, which Python reads, and no run writes."""
+    raise ValueError(f"{name} is no number")
+
+
+def _result(content: Mapping, folder: Path) -> Result:
+    lists = dict.fromkeys(("figures", "series", "statements"), list)
+    for table, kinds in ((content, SAID | lists), (content["record"], RECORDED)):
+        for name, kind in kinds.items():
+            if not isinstance(table[name], kind):
+                raise TypeError(f"{name}: is of another kind")
     readers = {"figures": _read_figure, "series": _read_series, "statements": _read_statement}
     studies: dict[str, tuple[list, list, list]] = {}
     for place, (kind, read) in enumerate(readers.items()):
         for entry in content[kind]:
             studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
-    findings = {name: Findings(*map(tuple, parts)) for name, parts in studies.items()}
-    said = {name: content[name] for name in KINDS}
-    result = Result(**said, next=tuple(content["next"]), findings=findings)
+    result = Result(
+        **{name: content[name] for name in SAID},
+        next=tuple(content["next"]),
+        findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
+        load=partial(RunArrays.read, folder),
+    )
     if not result.figures:  # which raises ValueError, too, where two have one name
         raise ValueError("figures: has none")
     return result
@@ -199,7 +244,7 @@ def _read_series(entry: Mapping) -> Series:
         known = [value for value in values if value is not None]
         kinds = str if known and isinstance(known[0], str) else int | float
         if not all(isinstance(value, kinds) for value in known):
-            raise TypeError(f"a column is {values!r}")
+            raise TypeError("a column is of several kinds")
         sizes = tuple(map(_number, stated[name])) if name in stated else None
         columns[name] = Column(tuple(values), entry["units"][name], sizes)
     account = entry.get("is_account", False)
