@@ -195,7 +195,7 @@ def finite_elements(
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    posed = posed if fields else replace(posed, window=None)
+    posed = _at_first(posed, fields)
     asked = Refinement(pitch or posed.pitches[0], **refinement)
     return next(iter(finite_element_level(posed, asked, Stages()).values()))
 
@@ -205,10 +205,16 @@ def half_plane_at(posed: "Problem", pitch: float | None = None, fields: bool = F
     from comparisons.common.progress import Stages
     from comparisons.models.analytic import analytic_level
 
-    posed = posed if fields else replace(posed, window=None)
+    posed = _at_first(posed, fields)
     grid = posed.grid(pitch or posed.pitches[0])
     levels = analytic_level(posed, posed.half_plane_effects, grid, Stages(), fields)
     return next(iter(levels.values()))
+
+
+def _at_first(posed: "Problem", fields: bool) -> "Problem":
+    """A problem at its first friction coefficient alone."""
+    posed = posed.under(posed.scene.load.friction[0])
+    return posed if fields else replace(posed, window=None)
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:

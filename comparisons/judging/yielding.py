@@ -31,7 +31,6 @@ from comparisons.models.problem import TABOR, Problem
 from comparisons.scenes.scene import Scene
 
 NAME = "yield"
-FIELD, PEAK = "field", "peak pressure"  # what tau1 was read of
 BEYOND_DOUBT, AT_SUCH_STRESSES = "beyond doubt", "at such stresses"  # names of what is said of flow
 OVER_FIRST_FLOW = "over_first_flow_tresca", "over_first_flow_von_mises"
 PLASTIC_STRAIN, STRAIN_BY_SLOPE = "plastic_strain", "plastic_strain_by_slope"
@@ -66,6 +65,7 @@ IDLE = "flow was computed and moves no judged figure by a tenth of its tolerance
 FLOW_IN_WORDS = {"elastic": "elastic", "plastic": "the finite elements flow", "idle": IDLE}
 LEAST_CAP = 2.4  # over Y, of those that fit what finite elements that flow do
 DOES_NOT_APPLY = "the elastic half-plane does not apply"
+YIELD, CRYSTAL = "shear yield stress, Y/√3", "ideal strength of a crystal, G/2π"
 # Without [stress]: the largest shear is that of Hertz's contact of the same peak pressure. That of
 # the scenes that come along is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
 FROM_PEAK = 0.4
@@ -102,22 +102,14 @@ class FlowAssessment:
         return max(filter(None, map(self.there, OVER_FIRST_FLOW)), default=None)
 
     @property
-    def ideal_strength(self) -> float:
-        """G/(2 pi) [Pa], above which no crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609);
-        infinite for a body below STIFF."""
-        body = self.scene.body
-        return body.material.shear_modulus / (2.0 * pi) if body.youngs_modulus > STIFF else inf
-
-    @property
-    def is_certain(self) -> bool:
-        """Whether the body flows at its yield stress by both criteria, less the uncertainty."""
-        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
-        return self.yield_stress is not None and self.least_shear > self.yield_in_shear
-
-    @property
-    def yield_in_shear(self) -> float:
-        """k [Pa] by von Mises, of a yield stress that is known."""
-        return self.yield_stress / 3.0**0.5
+    def limits(self) -> dict[str, float]:
+        """The shears [Pa] that no elastic body bears, in words: by von Mises that of its yield
+        stress, by which it flows by Tresca's criterion, too; and the ideal strength, above which no
+        crystal is elastic (J. Frenkel 1926, Z. Phys. 37, 572-609). Infinite where the yield stress
+        is not known, and for a body below STIFF."""
+        body, known = self.scene.body, self.yield_stress
+        strength = body.material.shear_modulus / (2.0 * pi) if body.youngs_modulus > STIFF else inf
+        return {YIELD: inf if known is None else known / 3.0**0.5, CRYSTAL: strength}
 
     @property
     def least_shear(self) -> float:
@@ -125,24 +117,21 @@ class FlowAssessment:
         return self.worst.value * (1.0 - self.worst.numerical)
 
     @property
-    def beyond_doubt(self) -> str:
-        """What an elastic body exceeds for certain, less the uncertainty, where nothing in the
-        scene stands for its flow: a sentence without its full stop, empty if nothing."""
-        if self.exceeded is None:
-            return ""
-        shear, limit = (with_unit(size, "Pa", 2) for size in (self.worst.value, self.exceeded))
-        crystal, body = "ideal strength of a crystal, G/2π", "shear yield stress, Y/√3"
-        which = crystal if self.exceeded == self.ideal_strength else body
-        return f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the {which} = {limit}"
-
-    @property
-    def exceeded(self) -> float | None:
-        """The limit [Pa] that the largest tau1 of an elastic body exceeds for certain, if any."""
+    def exceeded(self) -> str | None:
+        """The first of the limits that an elastic body exceeds for certain, if any, where nothing
+        in the scene stands for its flow."""
         if self.flow != "elastic" or self.scene.asks_elastic:
             return None
-        if self.is_certain:
-            return self.yield_in_shear
-        return self.ideal_strength if self.least_shear > self.ideal_strength else None
+        limits = self.limits.items()
+        return next((name for name, limit in limits if self.least_shear > limit), None)
+
+    @property
+    def beyond_doubt(self) -> str:
+        """The same as a sentence without its full stop; empty if nothing is exceeded."""
+        if (name := self.exceeded) is None:
+            return ""
+        shear, limit = (with_unit(size, "Pa", 2) for size in (self.worst.value, self.limits[name]))
+        return f"{DOES_NOT_APPLY}: its largest shear stress, {shear}, exceeds the {name} = {limit}"
 
     @property
     def at_such_stresses(self) -> str:
@@ -150,11 +139,11 @@ class FlowAssessment:
         it: for want of a yield stress, by what its solid typically bears; or because elastic bodies
         are the question. A clause, or nothing."""
         shear, typical = with_unit(self.worst.value, "Pa", 2), typical_shears(self.scene.body)
-        where = ""
+        limit, where = self.limits[YIELD], ""
         if self.ratio is None and typical and self.least_shear > BOTH_CRITERIA * typical[1]:
             where = flow_of(self.scene.body)
-        elif self.scene.asks_elastic and self.is_certain:
-            where = f"beyond a shear of Y/√3 = {with_unit(self.yield_in_shear, 'Pa', 2)}"
+        elif self.scene.asks_elastic and self.least_shear > limit:
+            where = f"beyond a shear of Y/√3 = {with_unit(limit, 'Pa', 2)}"
         return f"it flows at such stresses: {where}, the largest is {shear}" if where else ""
 
 
@@ -165,8 +154,8 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
     selection = before[MODEL_ERROR].data.selection if MODEL_ERROR in before else None
     if selection is not None and FLOW in selection.whole | selection.found:
         flow = replace(flow, flow="idle" if FLOW in selection.found else "plastic")
-    known = "yield_stress", "hardness", "ideal_strength"
-    of_scene = {name: getattr(flow, name) for name in known}
+    of_scene = {"yield_stress": flow.yield_stress, "hardness": flow.hardness}
+    of_scene["ideal_strength"] = flow.limits[CRYSTAL]
     profile = solved.problem.surface.profile
     if flow.hardness is not None and profile is not None:
         # Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319; Mikic 1974, Int. J. Heat Mass
@@ -177,22 +166,18 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
         slope = solved.problem.surface.info.roughness.rms_slope
         of_scene["plasticity_index_slope"] = relative * slope
     figures, said = figures_of(NAME, "scene", of_scene), [Statement("flow", flow.flow)]
-    limit, source = flow.exceeded if solved.plan.compares else None, flow.worst.source
+    limit = flow.exceeded if solved.plan.compares else None
     for figure in flow.figures:
         if figure is flow.worst and limit is not None:
-            figure = replace(figure, bounds=(0.0, limit / figure.scale))
+            figure = replace(figure, bounds=(0.0, flow.limits[limit] / figure.scale))
         figures.append(figure)
-    for friction in solved.problem.scene.load.friction:
-        at = {"friction": friction}
-        if flow.hardness is not None:  # else nothing says what it is over
-            limits = {"shakedown_limit": shakedown_limit(friction)[0]}
-            figures += figures_of(NAME, "scene", limits, None, at)
-        field = flow.figures.one(quantity="von_mises_max", friction=friction)
-        said.append(Statement("read", PEAK if field is None else FIELD, source, at))
+    for friction in solved.problem.scene.load.friction if flow.hardness is not None else ():
+        limits = {"shakedown_limit": shakedown_limit(friction)[0]}
+        figures += figures_of(NAME, "scene", limits, None, {"friction": friction})
     if flow.flow == "plastic" and MODEL_ERROR in before:
         figures += _figures_of_flow(solved.problem, before[MODEL_ERROR].data.wholes)
     flows = {BEYOND_DOUBT: flow.beyond_doubt, AT_SUCH_STRESSES: flow.at_such_stresses}
-    said += [Statement(name, text, source) for name, text in flows.items() if text]
+    said += [Statement(name, text, flow.worst.source) for name, text in flows.items() if text]
     return Findings(tuple(figures), statements=tuple(said), data=flow)
 
 

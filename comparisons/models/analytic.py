@@ -25,7 +25,7 @@ from analytic.stress.periodic import PeriodicRest
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
-from comparisons.models.level import ExpectedCost, Level, StressResult, by_friction, highest
+from comparisons.models.level import ExpectedCost, Level, StressResult, highest
 from comparisons.models.operators import (
     body_operator,
     layered_body,
@@ -33,7 +33,7 @@ from comparisons.models.operators import (
     patches_of,
     pressed_on,
 )
-from comparisons.models.problem import COUPLED, TABOR, Problem
+from comparisons.models.problem import TABOR, Problem
 from comparisons.models.readings import beside_hats, field_on
 from comparisons.models.window import Window, search_window
 
@@ -71,29 +71,14 @@ def analytic_level(
     stages: Stages,
     fields: bool = False,
 ) -> dict[float, Level]:
-    """Solve one level at each of the scene's friction coefficients: contact, and with [stress]
-    the largest stresses.
+    """Solve one level at friction coefficients that share a contact: contact, and with [stress] the
+    largest stresses.
 
     effects  that the model has beside the half-plane's assumptions
     fields   give all stresses on the window, too; of bodies without a layer"""
     if CAP in effects:
         cap = {"body.hardness": TABOR * problem.scene.body.yield_stress}
         problem = replace(problem, scene=problem.scene.unchecked(cap))
-
-    def solve(problem: Problem) -> dict[float, Level]:
-        return _level(problem, effects, grid, stages, fields)
-
-    return by_friction(problem, COUPLED in effects, solve)
-
-
-def _level(
-    problem: Problem,
-    effects: frozenset[str],
-    grid: HatGrid,
-    stages: Stages,
-    fields: bool,
-) -> dict[float, Level]:
-    """At friction coefficients that share a contact."""
     with stages.stage("contact", "half-plane: contact"):
         solution = _pressed(problem, effects, grid)
         moved = body_operator(problem, grid, effects).apply(solution.pressure)

@@ -1,7 +1,6 @@
 """One model's solution on one level of refinement, as data that every model fills in."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -248,20 +247,6 @@ class Solution:
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total
-
-
-def by_friction(
-    problem: Problem, moves: bool, solve: Callable[[Problem], dict[float, Level]]
-) -> dict[float, Level]:
-    """A model's level at each of the scene's friction coefficients, by `solve` of those that share
-    a contact, one after the other where friction `moves` it. What was expected is that of all."""
-    groups = [problem]
-    if moves:
-        groups = [problem.under(friction) for friction in problem.scene.load.friction]
-    solved = [solve(group) for group in groups]
-    seconds = sum(next(iter(of_group.values())).expected_seconds for of_group in solved)
-    levels = {friction: level for of_group in solved for friction, level in of_group.items()}
-    return {mu: replace(level, expected_seconds=seconds) for mu, level in levels.items()}
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:

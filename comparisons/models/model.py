@@ -39,14 +39,13 @@ class Model:
         pressures, which it never exceeds."""
         pitch = problem.pitch_of(number)
         if self.solver == "analytic":
-            cost, moved = expected_with(problem, pitch), COUPLED in self.effects
+            cost = expected_with(problem, pitch)
         else:
             from comparisons.models.finite_element.cost import expected
 
             there = np.array([problem.extent]) if patches is None else patches
             cost = expected(problem, self._refinement(pitch), there)
-            moved = problem.scene.finite_element.coupled
-        contacts = len(problem.scene.load.friction) if moved else 1
+        contacts = len(problem.scene.load.friction) if self._is_moved(problem) else 1
         return replace(cost, seconds=contacts * cost.seconds)
 
     def solve(self, here: Here, problem: Problem, number: int) -> dict[float, Level]:
@@ -54,7 +53,24 @@ class Model:
         it needs alone; raises ContactError, MeshError, FemError and SceneError."""
         words = ", ".join(filter(None, (self.label, *self._checks.values(), f"level {number}")))
         stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
-        pitch = problem.pitch_of(number)
+        contacts, levels, seconds = [problem], {}, 0.0
+        if self._is_moved(problem):
+            contacts = map(problem.under, problem.scene.load.friction)
+        for contact in contacts:
+            solved = self._solved(here, contact, problem.pitch_of(number), stages)
+            seconds += next(iter(solved.values())).expected_seconds
+            levels |= solved
+        return {mu: replace(level, expected_seconds=seconds) for mu, level in levels.items()}
+
+    def _is_moved(self, problem: Problem) -> bool:
+        """Whether each friction coefficient has a contact of its own."""
+        coupled = problem.scene.finite_element.coupled
+        return COUPLED in self.effects if self.solver == "analytic" else coupled
+
+    def _solved(
+        self, here: Here, problem: Problem, pitch: float, stages: Stages
+    ) -> dict[float, Level]:
+        """Of friction coefficients that share a contact."""
         if self.solver == "analytic":
             grid = problem.grid(pitch)
             return analytic_level(problem, self.effects, grid, stages, self.fields)

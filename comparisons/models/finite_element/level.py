@@ -21,7 +21,7 @@ from comparisons.models.finite_element.cost import expected
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
-from comparisons.models.level import Level, by_friction, flowing_contact, refuse_too_large
+from comparisons.models.level import Level, flowing_contact, refuse_too_large
 from comparisons.models.operators import LAYERS, operator_of
 from comparisons.models.posing import settled
 from comparisons.models.problem import COUPLED, Levels, Problem
@@ -43,8 +43,8 @@ def finite_element_level(
     approach: float | None = None,
     fields: bool = True,
 ) -> dict[float, Level]:
-    """Solve one level at each friction coefficient: mesh, factorise, press, and where asked for
-    compute the stresses.
+    """Solve one level at friction coefficients that share a contact: mesh, factorise, press, and
+    where asked for compute the stresses.
 
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
@@ -53,47 +53,41 @@ def finite_element_level(
     fields      give all stresses on the window and the mesh, not the largest alone
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
-    body_cache = body_cache or BodyCache()
-
-    def solve(problem: Problem) -> dict[float, Level]:
-        """Under friction coefficients that share a contact."""
-        frictions, flows = problem.scene.load.friction, problem.scene.finite_element.plastic
-        with stages.stage("assembly", "finite elements: loading"):
-            start_worker()
-            load_dolfinx()
-        with stages.stage("contact", "finite elements: predicting the contact"):
-            predicted = _predicted(problem, refinement.pitch, approach)
-        grid, guess = predicted.grid, predicted.solution
-        ranges = contact_patches(grid.x, guess.pressure, guess.gap)
-        patches = flowing_contact(problem) if flows else ranges
-        cost = expected(problem, refinement, patches)
-        refuse_too_large(problem, cost, "finite elements", refinement.pitch)
-        contact = _meshed(predicted, ranges, refinement, stages, body_cache)
-        pressed = _pressed(contact, refinement, stages)
-        solution = pressed.solution
-        level = Level(
-            grid=grid,
-            solution=solution,
-            displacement=pressed.displacement / grid.weights,
-            patches=pressed.patches,
-            seconds=stages.seconds,
-            unknowns=sum(body.unknowns for body in contact.bodies.all),
-            # none where flow decides what a crest bears
-            unresolved_crest=0.0 if flows else unresolved_crest(problem, grid, solution),
-            expected_seconds=cost.seconds,
-            expected_memory=cost.memory,
-            mesh=contact.bodies.rough.mesh,
-            material=pressed.material,
-        )
-        if problem.window is None:
-            return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
-        with stages.stage("stresses", "finite elements: stresses"):
-            how = frictions, problem.window, problem.asperities, fields
-            stresses, mesh_field = stresses_of(pressed, *how)
-        level = replace(level, peak_memory=peak_memory(), mesh_field=mesh_field)
-        return {stress.friction: replace(level, stress=stress) for stress in stresses}
-
-    return by_friction(problem, problem.scene.finite_element.coupled, solve)
+    frictions, flows = problem.scene.load.friction, problem.scene.finite_element.plastic
+    with stages.stage("assembly", "finite elements: loading"):
+        start_worker()
+        load_dolfinx()
+    with stages.stage("contact", "finite elements: predicting the contact"):
+        predicted = _predicted(problem, refinement.pitch, approach)
+    grid, guess = predicted.grid, predicted.solution
+    ranges = contact_patches(grid.x, guess.pressure, guess.gap)
+    patches = flowing_contact(problem) if flows else ranges
+    cost = expected(problem, refinement, patches)
+    refuse_too_large(problem, cost, "finite elements", refinement.pitch)
+    contact = _meshed(predicted, ranges, refinement, stages, body_cache or BodyCache())
+    pressed = _pressed(contact, refinement, stages)
+    solution = pressed.solution
+    level = Level(
+        grid=grid,
+        solution=solution,
+        displacement=pressed.displacement / grid.weights,
+        patches=pressed.patches,
+        seconds=stages.seconds,
+        unknowns=sum(body.unknowns for body in contact.bodies.all),
+        # none where flow decides what a crest bears
+        unresolved_crest=0.0 if flows else unresolved_crest(problem, grid, solution),
+        expected_seconds=cost.seconds,
+        expected_memory=cost.memory,
+        mesh=contact.bodies.rough.mesh,
+        material=pressed.material,
+    )
+    if problem.window is None:
+        return dict.fromkeys(frictions, replace(level, peak_memory=peak_memory()))
+    with stages.stage("stresses", "finite elements: stresses"):
+        how = frictions, problem.window, problem.asperities, fields
+        stresses, mesh_field = stresses_of(pressed, *how)
+    level = replace(level, peak_memory=peak_memory(), mesh_field=mesh_field)
+    return {stress.friction: replace(level, stress=stress) for stress in stresses}
 
 
 def _predicted(problem: Problem, pitch: float, approach: float | None) -> SmallStrainContact:
