@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.cache import NO_CACHE, Cache, kinds_of
 from comparisons.common.errors import ExitStatus, check_finite_elements, one_line
-from comparisons.common.files import check_writable, publish, unfinished
+from comparisons.common.files import check_file, check_writable, publish, unfinished, write_whole
 from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, key_of, machine, program_code, versions
@@ -23,7 +23,7 @@ from comparisons.common.tasks import ProcessEnded, called, tasks_here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.output.junit import JunitCase, check_place, junit_xml, write_junit
+from comparisons.output.junit import JunitCase, junit_xml
 from comparisons.output.terminal import plain_table
 
 if TYPE_CHECKING:
@@ -280,7 +280,8 @@ class Campaign:
 def check_places(command: str, out: Path, junit: Path | None) -> None:
     """Raise InputError where the files of a command cannot be written."""
     check_writable(out, (f"{command}.json",))
-    check_place(junit)
+    if junit is not None:
+        check_file(junit)
 
 
 def carry_out(
@@ -302,7 +303,8 @@ def carry_out(
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
     publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})
-    write_junit(junit, junit_of(campaign))
+    if junit is not None:
+        write_whole(junit, junit_of(campaign))
     kept.discard()
     return campaign
 

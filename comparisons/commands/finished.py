@@ -21,24 +21,14 @@ def report(
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
 ) -> int:
     """Show a finished run again without solving. Of many runs a page sums them up, too."""
-    from comparisons.output.flat_csv import result_summary
-    from comparisons.output.page import summary as page
+    from comparisons.output.page.summary import show_again
 
-    reports = [page.read_report(folder, pdf) for folder in folders]
-    if summary is None and len(reports) > 1:
+    if summary is None and len(folders) > 1:
         summary = RESULTS / "summary.html"
-    if summary is not None:
-        page.write_summary(reports, summary)
-    if pdf:
-        with progress() as callback:
-            reports = [page.printed(report, callback) for report in reports]
-
-    def shown() -> object:
-        only = reports[0].result if summary is None else None
-        return page.summary_table(reports, summary) if only is None else result_summary(only)
-
-    show_either(as_json, page.summary_content(reports, summary), shown)
-    for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):
+    with progress() as callback:
+        shown = show_again(folders, summary, pdf, callback)
+    show_either(as_json, shown.as_dict(), shown.tables)
+    for why in dict.fromkeys(report.no_pdf for report in shown.reports if report.no_pdf):
         tell(why)
     return ExitStatus.DONE
 

@@ -83,7 +83,12 @@ def run(
     from comparisons.common.processes import uncollected
 
     with uncollected():
-        from comparisons.common.files import check_writable, holds_comparison
+        from comparisons.common.files import (
+            check_file,
+            check_writable,
+            holds_comparison,
+            write_whole,
+        )
         from comparisons.output.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import Known, finish, solve_scene
         from comparisons.scenes.surface import surface_of
@@ -100,9 +105,7 @@ def run(
     directory = out or RESULTS / asked.name
     check_writable(directory)
     if junit is not None:
-        from comparisons.output.junit import check_place
-
-        check_place(junit)
+        check_file(junit)
     if len(chosen) == 1 and holds_comparison(directory):
         tell(f"{directory}: this run of one model replaces a comparison; --out keeps both")
     say_warnings(warnings_about(asked, surface))  # before anybody waits for the solution
@@ -121,9 +124,9 @@ def run(
                 callback("printing the report")
                 _print(directory)
         if junit is not None:
-            from comparisons.output.junit import junit_xml, run_cases_of, write_junit
+            from comparisons.output.junit import junit_xml, run_cases_of
 
-            write_junit(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
+            write_whole(junit, junit_xml(asked.name, run_cases_of(solved), perf_counter() - began))
     if not as_json:
         first = f"{directory / 'report.html'}, result.json" if drawn else directory / "result.json"
         print(f"written: {first} and the fields beside it")

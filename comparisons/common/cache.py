@@ -50,7 +50,6 @@ class Cache:
         # in memory first: an interrupt amid an archive whose file is closed would be complained of
         content = io.BytesIO()
         np.savez(content, outline=np.array(outline), **arrays)
-        self.folder.mkdir(parents=True, exist_ok=True)
         with suppress(FileNotFoundError):
             write_whole(self.path(name), content.getvalue())
 

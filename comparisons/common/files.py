@@ -65,6 +65,13 @@ def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
         raise _cannot(out, f"{why}; allowed is another folder")
 
 
+def check_file(path: Path) -> None:
+    """Raise InputError unless a file can be written there; its folder is made if need be."""
+    if path.is_dir():
+        raise InputError(f"{path}: cannot be written: is a folder; allowed is a file")
+    check_writable(path.parent, ())
+
+
 def _present(out: Path, patterns: tuple[str, ...]) -> list[str]:
     return [name for one in patterns for name in glob.glob(one, root_dir=out, recursive=True)]
 
@@ -74,7 +81,9 @@ def _cannot(out: Path, why: str) -> InputError:
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a file, text as UTF-8. Where that fails or is interrupted it stays as it was."""
+    """Write a file, text as UTF-8, in a folder that is made if need be. Where that fails or is
+    interrupted the file stays as it was."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         part.write_bytes(content.encode() if isinstance(content, str) else content)

@@ -9,8 +9,8 @@ curves, such as half_plane:
                                       single precision
     trace_x, trace_height             [m] of a rough surface, as read or made
     profile_x, profile_height         [m] the same as pressed, before any running-in
-    outline                           JSON: schema, and answers from outside as they were read,
-                                      whose arrays are a0, a1, …"""
+    answers                           JSON: answers from outside as they were read, whose arrays
+                                      are a0, a1, …"""
 
 import json
 from collections.abc import Mapping
@@ -31,7 +31,6 @@ from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.show import answers_of
 
 FILE = "run.npz"
-SCHEMA = 1
 CURVES = ("x", "pressure", "gap", "deformed_height")
 COMPONENTS = ("sx", "sz", "txz")
 LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
@@ -63,28 +62,23 @@ class RunArrays:
     @classmethod
     def read(cls, folder: Path) -> Self:
         """Those in a run's folder. Raises InputError, one line, where there are none."""
-        path = folder / FILE
-        remedy = "allowed is what this version of crosscheck wrote: run the scene again"
+        allowed = f"allowed is {FILE} as the run wrote it: run the scene again"
         try:
-            with np.load(path, allow_pickle=False) as file:
+            with np.load(folder / FILE, allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}
-            outline = json.loads(str(arrays.pop("outline")))
-            if outline["schema"] == SCHEMA:
-                return cls(arrays, decoded(outline["answers"], arrays, kinds_of(Answer)))
-        except FileNotFoundError:
-            raise InputError(f"{folder}: holds no {FILE}; {remedy}") from None
+            answers = json.loads(str(arrays.pop("answers")))
+            return cls(arrays, decoded(answers, arrays, kinds_of(Answer)))
         except Exception as error:  # zipfile, zlib, numpy and json have errors of their own
-            raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {remedy}") from None
-        raise InputError(f"{path}: schema: is {outline['schema']}; {remedy}")
+            said = f"{folder / FILE}: cannot be read: {str(error)[:LONGEST]}"
+            raise InputError(f"{said}; {allowed}") from None
 
     def write(self, path: Path) -> None:
         """Write run.npz; stresses take half of the space so, and compress to nine tenths only."""
         arrays: dict[str, np.ndarray] = {}
-        answers = encoded(dict(self.answers), arrays)
-        outline = np.array(json.dumps({"schema": SCHEMA, "answers": answers}))
+        answers = json.dumps(encoded(dict(self.answers), arrays))
         for name, values in self.arrays.items():
             arrays[name] = values.astype(np.float32) if values.ndim > 1 else values
-        np.savez(path, outline=outline, **arrays)
+        np.savez(path, answers=np.array(answers), **arrays)
 
     @property
     def models(self) -> list[str]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, one_line, tell
-from comparisons.common.files import csv_text
+from comparisons.common.files import check_file, csv_text
 from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
@@ -76,10 +76,7 @@ def check_place(path: Path) -> None:
     """Raise InputError, one line, unless a table can be written to a file of this name."""
     if path.suffix != ".csv":
         raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv")
-    if path.is_dir():
-        raise InputError(f"{path}: is a folder; allowed is a file")
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
+    check_file(path)
 
 
 def _runs(folders: Iterable[Path]) -> list[Path]:

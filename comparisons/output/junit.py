@@ -2,12 +2,9 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree
 
-from comparisons.common.errors import InputError
-from comparisons.common.files import check_writable, write_whole
 from comparisons.drawing.tables import line_of
 from comparisons.figures.figure import Verdict
 from comparisons.judging.study import Run
@@ -33,21 +30,6 @@ class JunitCase:
     text: str  # what was found
     result: Result = "passed"
     message: str = ""  # in a line, why it did not pass
-
-
-def check_place(junit: Path | None) -> None:
-    """Raise InputError unless the file can be written; None is no file."""
-    if junit is not None:
-        if junit.is_dir():
-            raise InputError(f"{junit}: cannot be written: it is a folder; allowed is a file")
-        check_writable(junit.parent, ())
-
-
-def write_junit(junit: Path | None, content: str) -> None:
-    """Leave the content in the file, whole or not at all; None is no file."""
-    if junit is not None:
-        junit.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(junit, content)
 
 
 def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str:

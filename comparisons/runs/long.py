@@ -59,7 +59,6 @@ def told(
         return callback
     path = folder / PROGRESS
     callback(Lasting(f"{began}: {said[0]}; what is done is in {path}"))
-    folder.mkdir(parents=True, exist_ok=True)
     write_whole(path, "\n".join([f"started {began}", *said, ""]))
 
     def tell(stage: str) -> None:

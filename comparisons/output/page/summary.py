@@ -5,13 +5,14 @@ In: the folders of runs. Out: the page; what was made, for the terminal."""
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import check_writable, write_whole
+from comparisons.common.files import REPORT, check_file, write_whole
 from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
 from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import Findings, grouped
@@ -19,9 +20,10 @@ from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text,
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.judging.verdict.within import rounded_up
+from comparisons.output.flat_csv import result_summary
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
-from comparisons.output.result import BUILT_OTHERWISE, Result, read_result
+from comparisons.output.result import Result, read_result
 from comparisons.studies import problem
 
 if TYPE_CHECKING:
@@ -54,7 +56,6 @@ class Report:
 
     result: Result
     page: Path
-    cells: dict[str, Cell]  # of those of COLUMNS that the run has
     # where the page was printed to, or why it was not; neither where that was not asked for
     pdf: Path | None = None
     no_pdf: str | None = None
@@ -63,71 +64,73 @@ class Report:
     def title(self) -> str:
         return self.result.scene["title"]
 
+    @cached_property
+    def cells(self) -> dict[str, Cell]:
+        """Those of COLUMNS that the run has."""
+        return {name: Cell(*said) for name, *said in _cells(self.result)}
 
-def read_report(folder: Path, pdf: bool = False) -> Report:
-    """The run in a folder. Raises InputError where there is none; for `pdf`, where its page is
-    missing or cannot be printed there."""
-    result, page = read_result(folder), folder / "report.html"
-    if pdf:
-        check_writable(folder, ())
-        if not page.is_file():
-            raise InputError(f"{folder}: holds no report.html; allowed is what a run wrote")
-    try:
-        return Report(result, page, cells_of(result))
-    except BUILT_OTHERWISE as error:
-        said = f"{folder / 'result.json'}: sums up to nothing ({error!r})"
-        raise InputError(f"{said}; allowed is what a run wrote") from error
+    def printed(self) -> "Report":
+        """With its page printed, or why it is not."""
+        try:
+            return replace(self, pdf=print_report(self.page.parent))
+        except NoPdfError as error:
+            return replace(self, no_pdf=str(error))
 
 
-def printed(report: Report, callback: ProgressCallback) -> Report:
-    """With its page printed, or why it is not."""
-    folder = report.page.parent
-    callback(f"{folder}: printing the report")
-    try:
-        return replace(report, pdf=print_report(folder))
-    except NoPdfError as error:
-        return replace(report, no_pdf=str(error))
+@dataclass(frozen=True)
+class Reports:
+    """Finished runs, shown again."""
 
+    reports: tuple[Report, ...]
+    summary: Path | None  # the page over all
 
-def write_summary(reports: Sequence[Report], path: Path) -> None:
-    """Write the page. Raises InputError where that cannot be."""
-    check_writable(path.parent, ())
-    if path.is_dir():
-        raise InputError(f"--summary: {path} is a folder; allowed is a file")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, summary_page(reports, path.parent))
-
-
-def summary_content(reports: Sequence[Report], summary: Path | None) -> dict:
-    """What was made, for JSON."""
-    return {
-        "schema": 1,
-        "summary": None if summary is None else str(summary),
-        "runs": [
+    def as_dict(self) -> dict:
+        """What was made, for JSON."""
+        runs = [
             {
                 "scene": report.title,
                 "verdict": report.result.verdict,
                 "sentence": f"{report.result.within_words} {report.result.why}",
                 "report": str(report.page),
-                "pdf": None if report.pdf is None else str(report.pdf),
+                "pdf": report.pdf and str(report.pdf),
                 "figures": {name: cell.value for name, cell in report.cells.items()},
             }
-            for report in reports
-        ],
-    }
+            for report in self.reports
+        ]
+        return {"schema": 1, "summary": self.summary and str(self.summary), "runs": runs}
+
+    def tables(self) -> "RenderableType":
+        """The run as it was printed; of several a line each."""
+        from rich.console import Group
+        from rich.table import Table
+        from rich.text import Text
+
+        if self.summary is None:
+            return Group(*(result_summary(report.result) for report in self.reports))
+        table = Table("scene", "verdict", "report", box=None, pad_edge=False)
+        for report in self.reports:
+            pages = "\n".join(str(path) for path in (report.page, report.pdf) if path is not None)
+            table.add_row(*map(Text, (one_line(report.title), report.result.verdict, pages)))
+        return Group(table, "", Text(f"summary  {self.summary}"))
 
 
-def summary_table(reports: Sequence[Report], summary: Path) -> "RenderableType":
-    """What was made, for people to read."""
-    from rich.console import Group
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table("scene", "verdict", "report", box=None, pad_edge=False)
-    for report in reports:
-        pages = "\n".join(str(path) for path in (report.page, report.pdf) if path is not None)
-        table.add_row(*map(Text, (one_line(report.title), report.result.verdict, pages)))
-    return Group(table, "", Text(f"summary  {summary}"))
+def show_again(
+    folders: Sequence[Path], summary: Path | None, pdf: bool, callback: ProgressCallback
+) -> Reports:
+    """Finished runs from their folders, a page over all of them, and each one's page printed.
+    Raises InputError, before anything is written, where one cannot be read or written."""
+    reports = [Report(read_result(folder), folder / REPORT) for folder in folders]
+    for report in reports if pdf else ():
+        if not report.page.is_file():
+            where = report.page.parent
+            raise InputError(f"{where}: holds no {REPORT}; allowed is what a run wrote")
+    if summary is not None:
+        check_file(summary)
+        write_whole(summary, summary_page(reports, summary.parent))
+    for number, report in enumerate(reports) if pdf else ():
+        callback(f"{report.page}: printing")
+        reports[number] = report.printed()
+    return Reports(tuple(reports), summary)
 
 
 def summary_page(reports: Sequence[Report], place: Path) -> str:
@@ -141,11 +144,6 @@ def summary_page(reports: Sequence[Report], place: Path) -> str:
     script, policy = inline("summary.js")
     table = {"reports": reports, "columns": columns, "counts": counts, "links": links}
     return rendered("summary.html.j2", script=script, policy=policy, **table)
-
-
-def cells_of(result: Result) -> dict[str, Cell]:
-    """What a row shows of a run."""
-    return {name: Cell(*said) for name, *said in _cells(result)}
 
 
 def _cells(result: Result) -> Iterator[tuple[str, str, float] | tuple[str, str, float, str]]:
@@ -165,7 +163,7 @@ def _cells(result: Result) -> Iterator[tuple[str, str, float] | tuple[str, str, 
         text = error_text(worst.value, worst.numerical)
         yield f"model_error_{worst.quantity}", text, abs(worst.value), note
     stages = {name: result.findings[contact.NAME].table("seconds", name) for name in result.models}
-    seconds = {name: sum(table.columns["seconds"].values) for name, table in stages.items()}
+    seconds = {name: sum(of.columns["seconds"].values) for name, of in stages.items() if of}
     if budget := result.findings.get(MODEL_ERROR, Findings()).table("cost"):
         [seconds["error_budget"]] = budget.columns["seconds"].values
     for name, time in seconds.items():

@@ -68,32 +68,22 @@ def test_report_shows_the_figures_that_are_judged_and_the_verdict(written, wavy_
         assert judged.quantity.replace("_", " ") in shown and judged.verdict in shown
 
 
-def spoil(path: Path) -> None:
-    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda f: (f / FILE).unlink(), "run: holds no run.npz; allowed is what this version"),
-        (lambda f: spoil(f / FILE), "run.npz: cannot be read: "),
-        (lambda f: (f / FILE).write_bytes(b"no zip"), "run.npz: cannot be read: "),
-        (
-            lambda f: np.savez(f / FILE, outline=np.array(json.dumps({"schema": 9}))),
-            "run.npz: schema: is 9; ",
-        ),
-        (
-            lambda f: np.savez(f / FILE, outline=np.array(json.dumps({"schema": 1}))),
-            "run.npz: cannot be read: 'answers'",
-        ),
+        (Path.unlink, "[Errno 2] No such file"),
+        (lambda path: path.write_bytes(path.read_bytes()[: path.stat().st_size // 2]), ""),
+        (lambda path: path.write_bytes(b"no zip"), ""),
+        (lambda path: np.savez(path, x=np.zeros(3)), "'answers'"),
     ],
 )
 def test_a_file_of_no_arrays_is_one_line(copied, change, message):
-    change(copied)
+    change(copied / FILE)
     with pytest.raises(InputError) as refused:
         RunArrays.read(copied)
     said = str(refused.value)
-    assert message in said and "\n" not in said and len(said) < 600
+    assert f"run.npz: cannot be read: {message}" in said and "allowed is run.npz as" in said
+    assert "\n" not in said and len(said) < 600
 
 
 @pytest.mark.parametrize("name", ["none", "empty"])
@@ -108,18 +98,12 @@ def test_one_wrong_folder_of_two_writes_nothing(copied, tmp_path, capsys, name):
 
 def test_a_page_that_is_missing_or_in_the_way_is_one_line(copied, tmp_path, capsys):
     assert main(["report", str(copied), "--summary", str(tmp_path)]) == 2
-    assert f"--summary: {tmp_path} is a folder; allowed is a file" in capsys.readouterr().err
+    assert (
+        f"{tmp_path}: cannot be written: is a folder; allowed is a file" in capsys.readouterr().err
+    )
     (copied / "report.html").unlink()
     assert main(["report", str(copied), "--pdf"]) == 2
     assert "run: holds no report.html; allowed is what a run wrote" in capsys.readouterr().err
-
-
-def test_a_result_of_no_series_is_one_line(copied, capsys):
-    content = json.loads((copied / "result.json").read_text())
-    (copied / "result.json").write_text(json.dumps(content | {"series": []}))
-    assert main(["report", str(copied)]) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and "sums up to nothing" in err and err.count("\n") == 1
 
 
 def test_a_summary_changes_no_folder_and_json_says_what_was_made(

@@ -99,8 +99,7 @@ def test_what_is_no_run_is_one_line(tmp_path, capsys, content, words):
     ("out", "words"),
     [
         ("all.xlsx", "ends with .xlsx; allowed is .csv"),
-        ("no/all.csv", "no is no folder"),
-        ("in.csv", "in.csv: is a folder; allowed is a file"),
+        ("in.csv", "in.csv: cannot be written: is a folder; allowed is a file"),
     ],
 )
 def test_a_file_that_cannot_be_is_refused(runs, tmp_path, capsys, monkeypatch, out, words):

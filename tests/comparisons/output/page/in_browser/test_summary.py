@@ -7,7 +7,7 @@ import pytest
 from scenes import WAVY_LAYER
 
 from comparisons.judging.study import Run
-from comparisons.output.page.summary import Report, cells_of, summary_page
+from comparisons.output.page.summary import Report, summary_page
 from comparisons.output.result import result_of
 
 ENTER = 13
@@ -17,7 +17,7 @@ ENTER = 13
 def rows(wavy_outcome, smooth_outcome, finish) -> list[Report]:
     layer = finish({**WAVY_LAYER, "title": "A <layer> & more"}, ("half_plane",))
     results = map(result_of, (wavy_outcome, layer, smooth_outcome))
-    return [Report(result, Path("report.html"), cells_of(result)) for result in results]
+    return [Report(result, Path("report.html")) for result in results]
 
 
 @pytest.fixture(scope="module")
