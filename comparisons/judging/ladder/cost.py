@@ -57,6 +57,7 @@ SHOWN = ("peak_pressure", "contact_length", "tau1_max")
 LEAST = 1e-7  # smaller errors are drawn there
 HEIGHT = 3.4  # inches, of the picture
 MARKS = "oDv^<sPX"  # of models
+Levels = tuple[str, str, Mapping[float, Level]]  # model, kind, one model's level by friction
 # Fields of finite elements that assume small, elastic strains.
 LINEAR = {"finite_element.deformation": "linear", "finite_element.plastic": False}
 COLUMNS = ("model", "kind", "pitch", "elements", "unknowns", "seconds", "peak_memory")
@@ -84,13 +85,6 @@ class Method:
     def model(self) -> Model:
         key = f"cost-{'-'.join(self.name.split())}"
         return Model(key, self.solver, self.effects, label=self.name)
-
-
-@dataclass(frozen=True)
-class Reference:
-    values: tuple[float, ...]  # [SI], one a friction coefficient
-    floor: float  # relative uncertainty, the largest of any
-    words: str
 
 
 def methods_of(problem: Problem) -> list[Method]:
@@ -137,68 +131,64 @@ def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    levels = []
-    for name, run in solved.runs.items():
-        for number in range(len(run.levels)):
-            same = {case.friction: case.runs[name].levels[number] for case in solved.cases}
-            levels.append((LABELS[name], name, same))
-    said = []
+    """A row a level. The reference's own has no error, nor has what a level does not know."""
+    found, said = _levels_of_run(solved, before), []
+    reference = found[-1]
     for method, number, key in _asked(solved, tasks):
         try:
-            by_friction = tasks.result(key)
-            converged = all(level.converged for level in by_friction.values())
+            levels = tasks.result(key)
+            converged = all(level.converged for level in levels.values())
             why = "" if converged else "did not converge"
         except Exception as error:  # costs its row alone
             why = one_line(str(error) if isinstance(error, EXPECTED) else defect(error))
         if why:
             pitch = with_unit(solved.problem.pitch_of(number), "m", 3)
-            left = f"{method.name} at {pitch}: {why}"
-            said.append(Statement("left out", left))
+            said.append(Statement("left out", f"{method.name} at {pitch}: {why}"))
         else:
-            levels.append((method.name, method.kind, by_friction))
-    known = _references(solved, before)
-    budget = before[MODEL_ERROR].data if MODEL_ERROR in before else None
-    beside = budget is not None and bool(budget.selection.added)  # the whole is another model
-    frictions = [case.friction for case in solved.cases]
-    last = next(reversed(solved.runs))
-    reference = [case.runs[last].finest for case in solved.cases]
-    if beside:
-        reference = budget.wholes
-        whole = dict(zip(frictions, reference, strict=True))
-        levels.append((LABELS[WHOLE], "finite_element", whole))
-    largest, rows = max(frictions), []
-    levels.sort(key=lambda row: (row[0], -row[2][largest].grid.pitch))
-    for name, kind, by_friction in levels:
-        level = by_friction[largest]
+            found.append((method.name, method.kind, levels))
+    words, exact, floors = _references(solved, before)
+    rows = []
+    for name, kind, levels in found:
+        level = levels[max(levels)]
         size = level.grid.pitch, level.grid.count, level.unknowns
         took = sum(level.seconds.values()), level.peak_memory
-        itself = level is reference[frictions.index(largest)]
-        errors = {} if itself else _errors(solved, by_friction, known)
+        errors = {} if levels is reference[2] else _errors(solved, levels, exact)
         row = dict(zip(COLUMNS, (name, kind, *size, *took), strict=True))
-        rows.append(row | {quantity: errors.get(quantity) for quantity in known})
-    measures = (
-        f"{QUANTITIES[name].short} of {best.words}, known to {percent(best.floor)}"
-        for name, best in known.items()
-    )
-    said += [Statement("reference", "; ".join(measures))] if known else []
+        rows.append(row | {quantity: errors.get(quantity) for quantity in exact})
+    rows.sort(key=lambda row: (row["model"], -row["pitch"]))
+    measures = (f"{QUANTITIES[n].short} of {words}, known to {percent(floors[n])}" for n in exact)
+    said += [Statement("reference", "; ".join(measures))] if exact else []
     units = {"pitch": "m", "seconds": "s", "peak_memory": "byte"}
     table = Series(ROWS, columns_of(rows, units), is_account=True)
-    series = table, _chosen(rows, known, solved.problem.scene.tolerances)
-    data = {name: reference.floor for name, reference in known.items()}
-    return Findings((), series, tuple(said), data)
+    chosen = _chosen(rows, floors, solved.problem.scene.tolerances)
+    return Findings((), (table, chosen), tuple(said), floors)
+
+
+def _levels_of_run(solved: Solved, before: Mapping[str, Findings]) -> list[Levels]:
+    """Those of its models, and the whole's where that is another one: the last is the best."""
+    levels, cases = [], solved.cases
+    for name, run in solved.runs.items():
+        for number in range(len(run.levels)):
+            same = {case.friction: case.runs[name].levels[number] for case in cases}
+            levels.append((LABELS[name], name, same))
+    budget = before[MODEL_ERROR].data if MODEL_ERROR in before else None
+    if budget is not None and budget.selection.added:
+        wholes = {c.friction: whole for c, whole in zip(cases, budget.wholes, strict=True)}
+        levels.append((LABELS[WHOLE], "finite_element", wholes))
+    return levels
 
 
 def _chosen(
-    rows: list[dict], known: Mapping[str, Reference], tolerances: Mapping[str, float]
+    rows: list[dict], floors: Mapping[str, float], tolerances: Mapping[str, float]
 ) -> Series:
     """The cheapest settings for each tolerance, and for all of them."""
-    tolerances = {name: size for name, size in tolerances.items() if name in known}
+    tolerances = {name: size for name, size in tolerances.items() if name in floors}
     aims = [{n: t} for n, t in tolerances.items()] + [tolerances] * (len(tolerances) > 1)
     best = {}
     for aim in aims:
         words = (f"{QUANTITIES[n].short} to {percent_as_written(t)}" for n, t in aim.items())
         settings = []
-        for row in cheapest(rows, aim, known):
+        for row in cheapest(rows, aim, floors):
             pitch, seconds = with_unit(row["pitch"], "m", 3), with_unit(row["seconds"], "s", 2)
             settings.append(f"{row['model']} at {pitch}, {seconds}")
         best[", ".join(words)] = "; ".join(settings) or "none that is solved"
@@ -206,52 +196,52 @@ def _chosen(
     return Series(CHEAPEST, chosen, is_account=True)
 
 
-def _references(solved: Solved, before: Mapping[str, Findings]) -> dict[str, Reference]:
-    """By quantity: of the whole model what was judged, else of the last model's finest level."""
-    frictions = solved.problem.scene.load.friction
-    known: dict[str, Reference] = {}
+def _references(
+    solved: Solved, before: Mapping[str, Findings]
+) -> tuple[str, dict[str, list[float]], dict[str, float]]:
+    """The whole model where it was judged, else the last model's finest level, in words; by
+    quantity its figures [SI], one a friction coefficient, and their largest relative
+    uncertainty."""
+    frictions, words = solved.problem.scene.load.friction, f"the {LABELS[WHOLE]}"
+    exact: dict[str, list[float]] = {}
+    floors: dict[str, float] = {}
     if LADDER in before:
         errors = Figures(before[MODEL_ERROR].figures).of(source="half_plane")
         unsure = Figures(before[LADDER].figures).of(source=WHOLE)
         for name in SHOWN:
             mine, left = errors.of(quantity=name), unsure.of(quantity=name)
             if len(mine) == len(left) == len(frictions):
-                values = tuple(error.scale for error in mine)
-                words = f"the {LABELS[WHOLE]}"
-                known[name] = Reference(values, max(f.numerical for f in left), words)
-    if known:
-        return known
-    name, run = next(reversed(solved.runs.items()))
-    figures = Figures(before[contact.NAME].figures).of(source=name)
-    for quantity in SHOWN:
-        if mine := figures.of(quantity=quantity):
-            words = f"{LABELS[name]} at {with_unit(run.finest.grid.pitch, 'm', 3)}"
-            values, floor = tuple(f.value for f in mine), max(f.numerical for f in mine)
-            known[quantity] = Reference(values, floor, words)
-    return known
+                exact[name] = [error.scale for error in mine]
+                floors[name] = max(figure.numerical for figure in left)
+    if not exact:
+        name, run = next(reversed(solved.runs.items()))
+        figures = Figures(before[contact.NAME].figures).of(source=name)
+        words = f"{LABELS[name]} at {with_unit(run.finest.grid.pitch, 'm', 3)}"
+        for quantity in SHOWN:
+            if mine := figures.of(quantity=quantity):
+                exact[quantity] = [figure.value for figure in mine]
+                floors[quantity] = max(figure.numerical for figure in mine)
+    return words, exact, floors
 
 
 def _errors(
-    solved: Solved, levels: Mapping[float, Level], known: Mapping[str, Reference]
+    solved: Solved, levels: Mapping[float, Level], exact: Mapping[str, list[float]]
 ) -> dict[str, float]:
     found = [values_of(levels[case.friction], case.problem) for case in solved.cases]
-    errors = {}
-    for name, best in known.items():
-        if all(name in values for values in found):
-            pairs = zip(found, best.values, strict=True)
-            errors[name] = max(abs(values[name] / exact - 1.0) for values, exact in pairs)
-    return errors
+    return {
+        name: max(abs(of[name] / best - 1.0) for of, best in zip(found, values, strict=True))
+        for name, values in exact.items()
+        if all(name in of for of in found)
+    }
 
 
-def cheapest(
-    rows: list[dict], aim: Mapping[str, float], known: Mapping[str, Reference]
-) -> list[dict]:
+def cheapest(rows: list[dict], aim: Mapping[str, float], floors: Mapping[str, float]) -> list[dict]:
     """Of each kind of model the row of the fewest seconds that meets the tolerances not by chance:
     all finer ones of its model do, and the finest of those with its assumptions. None where none
     does."""
 
     def meets(row: dict) -> bool:
-        return all(row[name] + known[name].floor <= most for name, most in aim.items())
+        return all(row[name] + floors[name] <= most for name, most in aim.items())
 
     judged = [row for row in rows if None not in [row[name] for name in aim]]
     met: list[dict] = []
@@ -325,8 +315,7 @@ def _draw(axes: "Axes", run: Run, name: str) -> None:
         axes.plot([row["seconds"] for row in mine], errors, label=model, **look)
     if tolerance is not None:
         axes.axhline(tolerance, label="tolerance", **style.REFERENCE)
-        known = {name: Reference((), floor, "")}
-        stars = cheapest(rows, {name: tolerance}, known)
+        stars = cheapest(rows, {name: tolerance}, {name: floor})
         look = {"linestyle": "none", "marker": "*", "markersize": 13, "color": "black"}
         places = [row["seconds"] for row in stars], [max(row[name], LEAST) for row in stars]
         axes.plot(*places, label="cheapest", zorder=3.0, **look)

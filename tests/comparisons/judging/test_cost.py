@@ -10,7 +10,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.tasks import Here
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.ladder import cost
-from comparisons.judging.ladder.cost import Method, Reference, cheapest, methods_of
+from comparisons.judging.ladder.cost import Method, cheapest, methods_of
 from comparisons.judging.rule import values_of
 from comparisons.models.model import Model
 from comparisons.runs.run import Known, run
@@ -60,7 +60,7 @@ def row(model: str, kind: str, pitch: float, seconds: float, error: float | None
 
 def chosen(rows: list[dict], floor: float = 0.0) -> list[dict]:
     """The cheapest to 1 % of a peak pressure that is known to `floor`."""
-    return cheapest(rows, {"peak_pressure": 0.01}, {"peak_pressure": Reference((), floor, "")})
+    return cheapest(rows, {"peak_pressure": 0.01}, {"peak_pressure": floor})
 
 
 P1, P2, PLANE = "finite elements, P1", "finite elements", "half-plane"
