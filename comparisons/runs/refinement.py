@@ -12,7 +12,7 @@ from comparisons.common.progress import machine_memory
 from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Tasks
 from comparisons.figures.quantity import label
 from comparisons.judging.comparison import discretisations
-from comparisons.judging.model_error.solutions import LEAST_LEVELS
+from comparisons.judging.model_error.refinement import LEAST_LEVELS
 from comparisons.judging.study import Solved
 from comparisons.models.forecast import with_one_more
 from comparisons.models.level import (

@@ -47,13 +47,11 @@ from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.model_error.refinement import (
     ASKED,
     GROWTH_OF_TIME,
+    LEAST_LEVELS,
     MOST_LEVELS,
     EffectRefinement,
     ErrorBudget,
-    most_effect_levels,
-    spent_seconds,
 )
-from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVariants
 from comparisons.judging.study import MODEL_ERROR, Solved
 from comparisons.judging.yielding import flow_assessment
 from comparisons.models.forecast import flow_seconds, time_with_flow
@@ -65,39 +63,35 @@ def error_budget(solved: Solved, rows: tuple[Figure, ...], tasks: Tasks) -> Erro
 
     rows  the comparison of the solved models; its norms are figures of none"""
     rows = tuple(row for row in rows if row.quantity in QUANTITIES)
-    scene, variants = solved.problem.scene, SolvedVariants(solved, tasks)
+    scene, selection = solved.problem.scene, effects_of_run(solved, tasks)
     is_frugal = scene.budget.effects != "all"
-    selection = effects_of_run(solved, tasks)
     is_open = FLOW in selection.added or not _is_decided(rows, selection)
     if is_frugal and selection.added and not is_open:
         selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
-    while True:
-        effects = EffectRefinement(rows, variants, selection)
+    effects, budget = EffectRefinement(solved, tasks, selection, rows), None
+    while budget is None:
+        effects.select(selection)
         try:
             if FLOW in selection.added:
                 least = effects.budget(LEAST_LEVELS, is_frugal=False)
                 if (flow := _idle_flow(least, scene.tolerances)) is not None:
                     selection = selected_effects(solved, coupled(solved, tasks), {FLOW: flow})
                     continue
-            budget = effects.budget(MOST_LEVELS, is_frugal)
+            found = effects.budget(MOST_LEVELS, is_frugal)
         except NotComputedError as error:
             if dropped := _given_up(effects):
                 selection = selection.without(dropped, str(error))
                 continue
             # what the scene itself has cannot be taken apart
-            budget = ErrorBudget(selection, 0, str(error), tuple(map(_unsplit, rows)))
             wholes = tuple(case.runs["finite_element"].finest for case in solved.cases)
-            budget = replace(budget, wholes=wholes)
+            budget = ErrorBudget(selection, 0, str(error), tuple(map(_unsplit, rows)), wholes)
         else:
-            selection = _of_what_flows(budget, effects)
-            if selection.added - budget.selection.added:
-                continue
-        break
+            selection = _of_what_flows(found, effects)
+            budget = None if selection.added - found.selection.added else found
     if scene.profile is not None:
         known = sampling_estimate(solved, tasks)
         selection = selection.estimated(SAMPLING, *known, scene.tolerances)
-    seconds = math.fsum(seconds for seconds, _ in variants.took.values())
-    return replace(budget, selection=selection, seconds=seconds, took=variants.took)
+    return replace(budget, selection=selection, took=effects.took)
 
 
 def _unsplit(row: Figure) -> Figure:
@@ -130,7 +124,7 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     pressures of wholes that flow, and by their plastic strains where their fields show these; with
     finite deformation where that matters, may decide a verdict, and the time allows it by the laws
     of cost; else with the reason why not."""
-    problem, variants, selection = effects.problem, effects.variants, budget.selection
+    problem, selection = effects.problem, budget.selection
     strains = [s for level in budget.wholes if (s := level.plastic_strain) is not None]
     pressures = [level.solution.pressure for level in budget.wholes]
     shown = Shown(max(map(np.max, pressures)), max(map(mean_pressure, pressures)))
@@ -154,12 +148,12 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
         return selection.without(frozenset({FINITE}), f"{SMALL_STRAINS}: {why}")
     wholes = [split_variants(problem, finite, mu).whole for mu in problem.scene.load.friction]
     least = range(1, LEAST_LEVELS + 1)
-    seconds = math.fsum(variants.forecast(w, n) for w in dict.fromkeys(wholes) for n in least)
-    spent = spent_seconds(variants)
+    seconds = math.fsum(effects.forecast(w, n) for w in dict.fromkeys(wholes) for n in least)
+    spent = effects.spent()
     if spent + seconds <= problem.time:
         return finite
-    time, most = spent + seconds, min(most_effect_levels(problem), len(variants.of_scene.levels))
-    finer = GROWTH_OF_TIME * variants.expected_of(budget.levels, effects.wholes)
+    time, most = spent + seconds, min(effects.most_levels, len(effects.own_levels))
+    finer = effects.finer(budget.levels)
     for _ in range(budget.levels, most):
         if spent + finer <= time:  # the time allows this level at small strains, too
             spent, time, finer = spent + finer, time + finer, GROWTH_OF_TIME * finer
@@ -177,13 +171,13 @@ def announce_effects(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     levels. The whole will leave it open, too: its further level need not wait, and a process stays
     with the bodies of one level."""
     selection = effects_of_run(solved, tasks)
-    effects = EffectRefinement((), SolvedVariants(solved, tasks), selection)
-    most = min(most_effect_levels(solved.problem), len(solved.runs["half_plane"].levels))
+    effects = EffectRefinement(solved, tasks, selection)
+    most = min(effects.most_levels, len(solved.runs["half_plane"].levels))
     if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
-    effects.announce(LAST, most, PERHAPS)
+    effects.announce_all(LAST, most, PERHAPS)
     announce_sampling(solved, tasks)
-    return partial(effects.announce, LATER, most)
+    return partial(effects.announce_all, LATER, most)
 
 
 def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
@@ -236,7 +230,7 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
 def _given_up(effects: EffectRefinement) -> frozenset[str]:
     """The added effects to leave out where the whole has no solution: those that have none by
     themselves, else finite deformation, else all."""
-    failed, added = {variant for variant, _ in effects.variants.failed}, effects.selection.added
+    failed, added = {variant for variant, _ in effects.failed}, effects.selection.added
     pairs = [pair for split in effects.splits for pair in split.pairs.items()]
     alone = {name for name, (with_it, _) in pairs if with_it in failed}
     return next(filter(None, (added & alone, added & {FINITE})), added)

@@ -1,29 +1,50 @@
-"""The effects of the model error level by level, until they add little to what is stated, or what a
-further level could change is no verdict."""
+"""The effects of the model error level by level: model variants, each solved once on a level as a
+task of the run, until they add little to what is stated, or what a further level could change is no
+verdict."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
 
-from comparisons.common.tasks import LAST, LATER
+import numpy as np
+
+from analytic.contact.problem import ContactError
+from comparisons.common.errors import InputError
+from comparisons.common.tasks import LAST, LATER, Tasks
 from comparisons.figures.figure import Figure, Figures
-from comparisons.judging.effects.catalogue import LAW
+from comparisons.judging.effects.catalogue import (
+    EFFECTS,
+    LAW,
+    NONLINEAR,
+    contained,
+    is_taken_apart,
+)
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.effects.variants import ModelVariant, problem_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions, figure_of
-from comparisons.judging.model_error.solutions import LEAST_LEVELS, SolvedVariants
+from comparisons.judging.model_error.quantities_of_interest import (
+    QuantitiesOfInterest,
+    quantities_of,
+)
+from comparisons.judging.study import Case, Solved
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem
+from comparisons.models.model import Model
+from comparisons.models.problem import COUPLED
+from comparisons.scenes.scene import Scene
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
 
-MOST_LEVELS = 3  # of the effects
+LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
 ASKED = 'budget.effects = "all" computes it'
 GROWTH_OF_TIME = 3.2  # from one level to the next, at most
+CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
+# What a task raises where a variant has no solution.
+NO_SOLUTION = ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError
 
 
 @dataclass(frozen=True)
@@ -35,7 +56,6 @@ class ErrorBudget:
     unsplit: str | None  # why the difference of the models could not be split, else None
     # of each quantity at each friction coefficient, without what is not modelled
     model_errors: tuple[Figure, ...]
-    seconds: float = 0.0  # that the effects took
     # of each case, the finite elements with every effect that matters, on the finest level of the
     # effects, with their fields
     wholes: tuple[Level, ...] = ()
@@ -46,57 +66,148 @@ class ErrorBudget:
     # by variant: seconds, and the largest memory [bytes]
     took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
 
+    @property
+    def seconds(self) -> float:
+        """What the effects took."""
+        return math.fsum(seconds for seconds, _ in self.took.values())
+
     def figures(self, tolerance: Mapping[str, float]) -> Figures:
         """Every model error with all that is not known of it, judged where it has a tolerance."""
         return Figures(figure_of(error, self.selection, tolerance) for error in self.model_errors)
 
 
-def most_effect_levels(problem: Problem) -> int:
-    most = None if problem.levels is None else problem.levels.effects
-    return min(MOST_LEVELS, most or MOST_LEVELS)
-
-
 class EffectRefinement:
-    """The effects of a selection level by level. The split stays on the least levels, unless the
-    whole and the scene's own finite elements are all that it takes."""
+    """Quantities of interest of the model variants that a selection of effects takes, level by
+    level. The split stays on the least levels, unless the whole and the scene's own finite elements
+    are all that it takes."""
 
     def __init__(
-        self, rows: tuple[Figure, ...], variants: SolvedVariants, selection: EffectSelection
+        self, scene: Solved, tasks: Tasks, selection: EffectSelection, rows: Iterable[Figure] = ()
     ) -> None:
-        self.rows, self.variants, self.selection = rows, variants, selection
-        self.problem, self.cases = variants.problem, variants.scene.cases
-        self.splits = [split_variants(self.problem, selection, c.friction) for c in self.cases]
-        variants.keep(split.whole for split in self.splits)
+        """Of a scene that is solved by the half-plane, perhaps by its own finite elements, too;
+        `rows` are the judged comparison of both."""
+        self.scene, self.problem, self.tasks, self.rows = scene, scene.problem, tasks, tuple(rows)
+        # by variant and number of the level from 1: by friction, or why there is no solution
+        self.solved: dict[
+            tuple[ModelVariant, int], dict[float, QuantitiesOfInterest] | NotComputedError
+        ] = {}
+        # by variant, seconds that it took and the largest memory of its process [bytes]
+        self.took: dict[ModelVariant, tuple[float, int]] = {}
+        # seconds by the laws of cost, by variant and number of the level
+        self.expected: dict[tuple[ModelVariant, int], float] = {}
+        # of the half-plane's contact, by which costs are expected
+        self._patches = scene.runs["half_plane"].levels[0].patches
+        self.own = own_variants(self.problem.scene)
+        self.select(selection)
+
+    def select(self, selection: EffectSelection) -> None:
+        """Go on with another selection. What is solved stays, but for levels of its wholes, whose
+        fields are wanted."""
+        self.selection, cases = selection, self.scene.cases
+        self.splits = [split_variants(self.problem, selection, case.friction) for case in cases]
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
         self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
+        # by friction, the finest level of those with every effect
+        self.finest: dict[ModelVariant, dict[float, Level]] = {s.whole: {} for s in self.splits}
+        failed = self.failed
+        for key in [k for k in self.solved if k[0] in self.finest and k not in failed]:
+            del self.solved[key]
 
-    def announce(self, splitting: int, levels: int = LEAST_LEVELS, further: int = LATER) -> None:
+    @property
+    def own_levels(self) -> tuple[Level, ...]:
+        """The scene's own finite elements, of the first case."""
+        return self.scene.runs["finite_element"].levels
+
+    @property
+    def most_levels(self) -> int:
+        """That the effects may be taken to."""
+        most = None if self.problem.levels is None else self.problem.levels.effects
+        return min(MOST_LEVELS, most or MOST_LEVELS)
+
+    @property
+    def failed(self) -> dict[tuple[ModelVariant, int], NotComputedError]:
+        """Those that have no solution."""
+        return {k: found for k, found in self.solved.items() if isinstance(found, NotComputedError)}
+
+    def announce_all(
+        self, splitting: int, levels: int = LEAST_LEVELS, further: int = LATER
+    ) -> None:
         """Make the variants known to the tasks: on so many levels the wholes, which others need, on
         the least ones and as urgent as `splitting` what splits them, too."""
         for split in self.splits:
-            self.variants.announce(split.checks, 1, splitting)
+            self.announce(split.checks, 1, splitting)
         for number in range(1, levels + 1):
             is_further = number > LEAST_LEVELS
-            self.variants.announce(self.wholes, number, further if is_further else LATER)
-            self.variants.announce(() if is_further else self.every, number, splitting)
+            self.announce(self.wholes, number, further if is_further else LATER)
+            self.announce(() if is_further else self.every, number, splitting)
+
+    def announce(
+        self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
+    ) -> dict[ModelVariant, str]:
+        """Make those that are new on a level known to the tasks; the keys of these."""
+        new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
+        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
+        keys, how = {}, (number, self._patches)
+        for variant in new:
+            self.expected.setdefault((variant, number), self.forecast(variant, number))
+            model, problem = self._model(variant, number), problem_with(self.problem, variant)
+            keys[variant] = model.announce(self.tasks, problem, *how, urgency)
+        return keys
+
+    def prepare(self, asked: Iterable[ModelVariant], number: int) -> None:
+        """Solve the variants that are new on a level."""
+        for variant, key in self.announce(asked, number).items():
+            try:
+                found = self._noted(variant, number, self.tasks.result(key))
+            except NO_SOLUTION as error:
+                found = NotComputedError(variant, str(error))
+            self.solved[variant, number] = found
+
+    def is_open(self, variant: ModelVariant, number: int) -> bool:
+        """Whether a level of a variant is yet to be solved."""
+        return variant not in self.own and (variant, number) not in self.solved
+
+    def solution(
+        self, variant: ModelVariant | None, number: int, case: Case
+    ) -> QuantitiesOfInterest:
+        """Of a solved variant on a level, None for the scene's own finite elements."""
+        if variant is None or variant in self.own:
+            return quantities_of(case.runs["finite_element"].levels[number - 1], case.problem)
+        return self.solved[variant, number][case.friction]
+
+    def forecast(self, variant: ModelVariant, number: int) -> float:
+        """Seconds that a level of a variant takes by the laws of cost."""
+        problem = problem_with(self.problem, variant)
+        return self._model(variant, number).cost(problem, number, self._patches).seconds
+
+    def spent(self, below: float = math.inf) -> float:
+        """Seconds, by the laws of cost, of the levels of the scene's finite elements and of all
+        variants, of these `below` a number."""
+        spent = [cost for (_, number), cost in self.expected.items() if number < below]
+        return math.fsum([*spent, *(level.expected_seconds for level in self.own_levels)])
+
+    def finer(self, number: int) -> float:
+        """Seconds that the level of the wholes after this one takes at most."""
+        known = (self.expected.get((variant, number), 0.0) for variant in self.wholes)
+        return GROWTH_OF_TIME * math.fsum(known)
 
     def budget(self, most: int, is_frugal: bool) -> ErrorBudget:
         """The model errors by so many levels at most; wholes are solved before what splits them.
 
         is_frugal  whether a level that cannot change a verdict is left out
         Raises NotComputedError where a whole has no solution on the least levels."""
-        most = min(most, most_effect_levels(self.problem), len(self.variants.of_scene.levels))
-        self.announce(LAST)
+        most = min(most, self.most_levels, len(self.own_levels))
+        self.announce_all(LAST)
         levels, left_out = self._solve_wholes(most, is_frugal)
         for number in range(1, min(levels, LEAST_LEVELS) + 1):
-            self.variants.prepare(self.every, number)
-        solutions, finest = self._solutions(levels), self.variants.finest
+            self.prepare(self.every, number)
+        solutions = self._solutions(levels)
         return ErrorBudget(
             selection=self.selection,
             levels=levels,
             unsplit=next((one.unsplit for one in solutions if one.unsplit), None),
             model_errors=tuple(self._errors(solutions)),
-            wholes=tuple(finest(one.split.whole, one.case.friction) for one in solutions),
+            wholes=tuple(self._finest(one) for one in solutions),
             left_out=left_out,
             solutions=tuple(solutions),
         )
@@ -115,8 +226,7 @@ class EffectRefinement:
                 further = f"level {number} of the whole model"
                 return number - 1, f"{further}: cannot change a verdict ({ASKED})"
             # by the laws of cost: clocks would give another machine other figures
-            finer = GROWTH_OF_TIME * self.variants.expected_of(number - 1, self.wholes)
-            if spent_seconds(self.variants, number) + finer > self.problem.time:
+            if self.spent(number) + self.finer(number - 1) > self.problem.time:
                 return number - 1, None
             try:
                 self._solve_whole(number)
@@ -125,17 +235,17 @@ class EffectRefinement:
         return most, None
 
     def _solve_whole(self, number: int) -> None:
-        self.variants.prepare(self.wholes, number)
-        for error in (self.variants.failed.get((variant, number)) for variant in self.wholes):
+        self.prepare(self.wholes, number)
+        for error in (self.failed.get((variant, number)) for variant in self.wholes):
             if error is not None:
                 raise error
 
     def _solve_checks(self) -> None:
         """On the coarsest level; where one of the laws has no solution, none is taken."""
         for split in self.splits:
-            self.variants.prepare(split.checks, 1)
+            self.prepare(split.checks, 1)
         laws = (variant for split in self.splits for variant in split.laws.values())
-        failed = [error for law in laws if (error := self.variants.failed.get((law, 1)))]
+        failed = [error for law in laws if (error := self.failed.get((law, 1)))]
         if failed and self.selection.laws:
             why = f"with the law of {failed[0].variant.laws_name}: {failed[0]}"
             self.selection = self.selection.without(frozenset({LAW}), why)
@@ -143,21 +253,28 @@ class EffectRefinement:
     def _solutions(self, levels: int) -> list[Solutions]:
         """Of each case, what is solved so far on so many levels. The split is on those on which no
         variant is open."""
-        known, taken = self.variants, []
-        for case, split in zip(self.cases, self.splits, strict=True):
+        taken, failed = [], self.failed
+        for case, split in zip(self.scene.cases, self.splits, strict=True):
             history, unsplit, levels_split = [], None, 0
             for number in range(1, levels + 1):
-                solved = partial(known.solution, number=number, friction=case.friction)
-                tried = [v for v in (*split.all, *split.checks) if not known.is_open(v, number)]
-                found = {v: solved(v) for v in tried if (v, number) not in known.failed}
-                history.append({split.of_scene: solved(split.of_scene)} | found)
+                tried = [v for v in (*split.all, *split.checks) if not self.is_open(v, number)]
+                found = [v for v in tried if (v, number) not in failed]
+                history.append(
+                    {v: self.solution(v, number, case) for v in (split.of_scene, *found)}
+                )
                 if levels_split == number - 1 and set(split.all) <= set(tried):
                     levels_split = number
                     if split.nothing not in found:
-                        unsplit = unsplit or str(known.failed[split.nothing, number])
+                        unsplit = unsplit or str(failed[split.nothing, number])
             how = {"levels_split": 0 if unsplit else levels_split, "unsplit": unsplit}
             taken.append(Solutions(case, split, self.selection.laws, tuple(history), **how))
         return taken
+
+    def _finest(self, one: Solutions) -> Level:
+        """Of the whole of a case."""
+        if one.split.whole in self.own:
+            return one.case.runs["finite_element"].finest
+        return self.finest[one.split.whole][one.case.friction]
 
     def _errors(self, solutions: list[Solutions]) -> list[Figure]:
         known = [(one, row) for one in solutions for row in self.rows]
@@ -169,12 +286,47 @@ class EffectRefinement:
         figures = (figure_of(error, *known) for error in errors)
         return all(figure.is_fixed for figure in figures if figure.bounds)
 
+    def _model(self, variant: ModelVariant, number: int) -> Model:
+        """What solves the problem of a variant on a level."""
+        whole = variant in self.finest
+        words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
+        return Model(
+            f"{'whole' if whole else 'part'}-{variant.name}",
+            "finite elements",
+            half_block=variant.half_block,
+            times=variant.times,
+            fields=whole and number >= LEAST_LEVELS,  # it may be the finest
+            label=f"with {words}",
+        )
 
-def spent_seconds(variants: SolvedVariants, below: float = math.inf) -> float:
-    """Seconds of the levels of the scene's finite elements and of all variants, of these `below` a
-    number, by the laws of cost."""
-    spent = [cost for (_, number), cost in variants.expected.items() if number < below]
-    return math.fsum([*spent, *(level.expected_seconds for level in variants.of_scene.levels)])
+    def _noted(
+        self, variant: ModelVariant, number: int, levels: Mapping[float, Level]
+    ) -> dict[float, QuantitiesOfInterest]:
+        """The solution of a variant on a level, by friction, once what it took is noted; raises
+        ContactError where it is none."""
+        problem, clear = problem_with(self.problem, variant), CLEAR * self.problem.pitch_of(number)
+        for level in levels.values():
+            if not level.converged:
+                raise ContactError(f"the contact did not converge on level {number}")
+            start, stop = level.patches[0, 0], level.patches[-1, 1]
+            if start < problem.extent[0] + clear or stop > problem.extent[1] - clear:
+                raise ContactError("the contact reaches the end of the pressures")
+        level = next(iter(levels.values()))
+        before, memory = self.took.get(variant, (0.0, 0))
+        spent = before + sum(level.seconds.values())
+        self.took[variant] = spent, max(memory, level.peak_memory)
+        if variant in self.finest:
+            self.finest[variant] = dict(levels)
+        self.expected[variant, number] = level.expected_seconds
+        return {friction: quantities_of(level, problem) for friction, level in levels.items()}
+
+
+def own_variants(scene: Scene) -> set[ModelVariant]:
+    """Those that the scene's own finite elements are; none where these are more than effects."""
+    if not is_taken_apart(scene):
+        return set()
+    own, frictions = contained(scene), (None, *scene.load.friction)
+    return {ModelVariant(own - ({COUPLED} if mu == 0.0 else set()), mu) for mu in frictions}
 
 
 def _settled(rows: tuple[Figure, ...], errors: list[Figure]) -> bool:

@@ -5,7 +5,6 @@ from collections.abc import Iterable
 from contextlib import suppress
 from functools import reduce
 from operator import sub
-from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -19,7 +18,6 @@ from comparisons.judging.model_error.contributions import (
 )
 from comparisons.judging.model_error.model_error import Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.judging.model_error.refinement import EffectRefinement
 from comparisons.judging.rule import relative_differences
 from comparisons.judging.study import Case
 
@@ -138,14 +136,6 @@ class TestWithoutSolution:
         split, parts = split_by(problem_with(), solutions, added=self.ADDED)
         assert parts.effects == {} and split.nothing not in parts.history[0]
         assert not is_nothing(parts.missing[0])
-
-    def test_of_the_whole_nothing_is_known(self, problem_with):
-        problem, selection = problem_with(), selection_of(added=self.ADDED)
-        whole = split_variants(problem, selection, 0.0).whole
-        variants = Mock(problem=problem, failed={(whole, 1): NotComputedError(whole, "no mesh")})
-        variants.scene.cases, variants.of_scene.levels = (Case(problem),), (None,) * 3
-        with pytest.raises(NotComputedError):
-            EffectRefinement((), variants, selection).budget(3, is_frugal=False)
 
 
 class TestLargestValues:

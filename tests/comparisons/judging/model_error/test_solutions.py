@@ -14,9 +14,8 @@ from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
-    split_variants,
 )
-from comparisons.judging.model_error.solutions import SolvedVariants
+from comparisons.judging.model_error.refinement import EffectRefinement
 from comparisons.judging.study import unsolved
 from comparisons.models.model import Model
 from comparisons.models.plan import make_plan
@@ -34,8 +33,8 @@ def made(problem_with):
     plan = make_plan(problem, MODELS)
     solved = refined(unsolved(problem, plan), Tasks())
 
-    def variants(tasks) -> SolvedVariants:
-        return SolvedVariants(solved, tasks)
+    def variants(tasks) -> EffectRefinement:
+        return EffectRefinement(solved, tasks, SELECTION)
 
     return variants
 
@@ -47,8 +46,7 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     with tasks_here(stages.append) as tasks:
         tasks.opens, tasks.at_once = ProcessWorker, 2
         shared = made(tasks)
-        split = split_variants(shared.problem, SELECTION, 0.0)
-        shared.keep([split.whole])
+        [split] = shared.splits
         assert len(shared.announce(split.all, 1)) == 3
         shared.prepare(split.all, 1)
         assert len(tasks._workers) == 2
@@ -56,13 +54,14 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
     assert len(told) == 3 and len(split.all) == 4
     solved = {variant for variant, _ in shared.solved}
     assert solved == {*split.all} - {split.nothing}  # which is the scene's own
-    assert shared.finest(split.whole, 0.0) is shared.wholes[split.whole][0.0]
+    assert list(shared.finest) == [split.whole] and list(shared.finest[split.whole]) == [0.0]
+    [case], _ = shared.scene.cases, alone.prepare(split.all, 1)
     for variant in split.all:
-        one, two = (bodies.solution(variant, 1, 0.0).figures for bodies in (alone, shared))
+        one, two = (bodies.solution(variant, 1, case).figures for bodies in (alone, shared))
         assert one.keys() == two.keys()
         for name, values in one.items():
             np.testing.assert_array_equal(values, two[name])
-    assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
+    assert alone.spent() == shared.spent() > alone.spent(below=1) == shared.spent(below=1)
 
 
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
@@ -71,11 +70,16 @@ def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
     with patch.object(Model, "solve", side_effect=MeshError("no\nmesh")):
         bodies.prepare([disc], 1)
     bodies.prepare([disc, circle], 1)  # is not tried again
-    assert bodies.solution(circle, 1, 0.0)
-    with pytest.raises(NotComputedError) as caught:
-        bodies.solution(disc, 1, 0.0)
-    for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):  # of another process
-        assert (error.variant, str(error)) == (disc, "no mesh")
+    assert bodies.solution(circle, 1, bodies.scene.cases[0])
+    error = bodies.failed[disc, 1]
+    for one in (error, pickle.loads(pickle.dumps(error))):  # of another process
+        assert (one.variant, str(one)) == (disc, "no mesh")
+
+
+def test_of_a_whole_without_a_solution_nothing_is_known(made):
+    refused = patch.object(Model, "solve", side_effect=MeshError("no mesh"))
+    with refused, pytest.raises(NotComputedError, match="no mesh"):
+        made(Tasks()).budget(3, is_frugal=False)
 
 
 def test_a_problem_can_be_handed_on(problem_with):

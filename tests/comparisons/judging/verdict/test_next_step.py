@@ -164,7 +164,7 @@ def stated(draw: random.Random, problem: Problem) -> Run:
             errors = [replace(e, uncertainty=scatter, unknown={}, parts=()) for e in errors]
         if draw.random() < 0.03:
             errors = []
-        budget = ErrorBudget(selection, 2, None, tuple(errors), 0.0)
+        budget = ErrorBudget(selection, 2, None, tuple(errors))
         figures = tuple(budget.figures(scene.tolerances))
         findings[MODEL_ERROR] = Findings(figures, data=budget)
     findings[yielding.NAME] = yielding.solve(solved, findings, None)

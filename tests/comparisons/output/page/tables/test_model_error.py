@@ -46,7 +46,7 @@ def split(wavy_outcome: Run) -> Run:
         judged("peak_pressure", -0.031, 0.0012, friction=0.1, parts=PARTS),
         judged("contact_length", 0.05, 0.01, friction=0.0, parts=PARTS),
     )
-    budget = ErrorBudget(SELECTION, 2, None, errors, 1.5)
+    budget = ErrorBudget(SELECTION, 2, None, errors)
     rows = tuple(
         row
         for row in wavy_outcome.figures.of(study="comparison")
