@@ -4,7 +4,7 @@ In: an error budget, whose finite elements are solved already. Out: a rung a mod
 is a closed form; every other rung is what the run has solved for its verdict."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
@@ -12,13 +12,12 @@ from time import perf_counter
 import numpy as np
 
 from comparisons.common.tasks import Tasks
-from comparisons.figures.figure import Figure, deciding
+from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
 from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.ladder import candidates
 from comparisons.judging.model_error.model_error import Solutions, figure_of
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
@@ -56,74 +55,69 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
     """Every model, from the cheapest to the whole. The tasks solve what only the ladder asks for:
     half-planes with some of the effects, where nothing cheaper holds, and the same effects in
     finite elements are not refuted."""
-    made, effects = list(_solved(solved, budget)), budget.selection.whole
-    every, analytic = candidates.CANDIDATES, [HERTZ, HALF_PLANE]
+    rung, effects = partial(_rung, solved, budget), budget.selection.whole
+    made, analytic = [rung(*one) for one in _solved(solved, budget)], [HERTZ, HALF_PLANE]
     finest = (case.runs[HALF_PLANE].finest.solution.pressure for case in solved.cases)
-    peak = max(float(pressure.max()) for pressure in finest)
+    peak, every = max(float(pressure.max()) for pressure in finest), candidates.CANDIDATES
     for candidate in () if flow.beyond_doubt else every:  # and no model of the run does
-        if any(rung.verdict == "holds" for rung in made if rung.name in analytic):
+        if any(one.verdict == "holds" for one in made if one.name in analytic):
             break
         held = candidate.carries(solved.problem, effects, peak)
-        same = [rung for rung in made if rung.effects == held and candidate.has_elements]
-        refuted = any(rung.verdict == "fails" for rung in same)
+        same = [one for one in made if one.effects == held and candidate.has_elements]
+        refuted = any(one.verdict == "fails" for one in same)
         runs = candidates.solutions(solved, held, tasks) if held and not refuted else None
         if runs is not None:
             took = _took(next(iter(runs.values())))  # what all took together
-            errors = (e for one in budget.solutions for e in _beside(one, runs))
             named = candidate.name, held, candidates.words_of(held)
-            made.append(_rung(budget, solved, *named, took, errors))
+            made.append(rung(*named, took, partial(_beside, runs)))
             analytic.append(candidate.name)
     order = [HERTZ, HALF_PLANE, *(candidate.name for candidate in every), *ELEMENTS, WHOLE]
 
-    def place(rung: Rung) -> int:
-        return order.index(rung.name if rung.name in order else _dearest(rung.effects))
+    def place(one: Rung) -> int:
+        return order.index(one.name if one.name in order else _dearest(one.effects))
 
     return sorted(made, key=place)
 
 
-def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[Rung]:
-    """What the run has for its verdict, and a closed form."""
-    selection, every, none = budget.selection, budget.solutions, frozenset()
-    rung, own = partial(_rung, budget, solved), budget.selection.contained
+def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[tuple]:
+    """What the run has for its verdict, and a closed form: what a `_rung` is made of."""
+    own, every, none = budget.selection.contained, budget.solutions, frozenset()
     if (smooth := closed_form(solved.problem)) is not None:
         began = perf_counter()
-        exact = [_closed_form(one.case) for one in every]
-        took = perf_counter() - began, 0.0
-        errors = (e for one, of in zip(every, exact, strict=True) for e in one.of_exact(of))
-        yield rung(HERTZ, none, f"{smooth.name}'s closed form", took, errors)
-    took = _took(solved.runs[HALF_PLANE])
-    yield rung(HALF_PLANE, none, "half-plane", took, budget.model_errors)
+        exact = {one.case.friction: _closed_form(one.case) for one in every}
+        took, words = (perf_counter() - began, 0.0), f"{smooth.name}'s closed form"
+        yield HERTZ, none, words, took, lambda one: one.of_exact(exact[one.case.friction])
+    errors = Figures(budget.model_errors)
+    yield (
+        *(HALF_PLANE, none, "half-plane", _took(solved.runs[HALF_PLANE])),
+        lambda one: errors.of(at=one.case.at),
+    )
     for name in dict.fromkeys(name for one in every for name in one.effects):
         split = [one.split for one in every if name in one.split.pairs]
         if own != {name} and any(one.pairs[name][0] != one.whole for one in split):
             words = f"finite elements with {EFFECTS[name].label}"
             words = f"{ELEMENTS[name]} alone" if name in ELEMENTS else words
-            errors = (e for one in every for e in one.of_levels(_with(name, one)))
             took = _took_by(budget, (one.pairs[name][0] for one in split))
-            yield rung(name, frozenset({name}), words, took, errors)
+            yield name, frozenset({name}), words, took, partial(_with, name)
     took = _took(solved.runs[OTHER])
     lacking = (one.missing[-1].figures.values() for one in every)
     if own and any(np.any(change) for figures in lacking for change in figures):
-        errors = (
-            e
-            for one in every
-            for e in one.of_levels([level[one.split.of_scene] for level in one.history])
-        )
-        yield rung(OTHER, own, _words_of_elements(own), took, errors)
+        words = _words_of_elements(own)
+        yield OTHER, own, words, took, lambda one: one.of_levels(one.solved(one.split.of_scene))
     more, most = _took_by(budget, (variant for one in every for variant in one.split.wholes))
-    words = f"whole model: {_words_of_elements(selection.whole)}"
-    errors = (error for one in every for error in one.of_exact())
-    yield rung(WHOLE, selection.whole, words, (took[0] + more, max(took[1], most)), errors)
+    whole, took = budget.selection.whole, (took[0] + more, max(took[1], most))
+    words = f"whole model: {_words_of_elements(whole)}"
+    yield WHOLE, whole, words, took, lambda one: one.of_exact()
 
 
-def _with(name: str, one: Solutions) -> list[QuantitiesOfInterest]:
-    """Finite elements with one effect, or where it does nothing, without any."""
+def _with(name: str, one: Solutions) -> Iterator[Figure]:
+    """Errors of finite elements with one effect, or where it does nothing, without any."""
     variant, *_ = one.split.pairs.get(name, (one.split.nothing,))
     levels = one.history[: one.levels_split]
-    return [level.get(variant, level[one.split.nothing]) for level in levels]
+    return one.of_levels([level.get(variant, level[one.split.nothing]) for level in levels])
 
 
-def _beside(one: Solutions, runs: dict[float, Solution]) -> Iterator[Figure]:
+def _beside(runs: Mapping[float, Solution], one: Solutions) -> Iterator[Figure]:
     """Errors of a model that was solved on the pressure elements of the finite elements."""
     run, elements = runs[one.case.friction], one.case.runs[OTHER]
     known = replace(one, case=replace(one.case, runs={HALF_PLANE: run, OTHER: elements}))
@@ -131,19 +125,20 @@ def _beside(one: Solutions, runs: dict[float, Solution]) -> Iterator[Figure]:
 
 
 def _rung(
-    budget: ErrorBudget,
     solved: Solved,
+    budget: ErrorBudget,
     name: str,
     effects: frozenset[str],
     words: str,
     took: tuple[float, float],
-    errors: Iterable[Figure],
+    errors: Callable[[Solutions], Iterable[Figure]],
 ) -> Rung:
-    """With those errors that are judged; `took` seconds, and memory [bytes]."""
+    """With those errors that are judged, of each case; `took` seconds, and memory [bytes]."""
     known = budget.selection, solved.problem.scene.tolerances
     mine = {"study": LADDER, "source": name, "parts": (), "place": None}
-    figures = (replace(figure_of(error, *known), **mine) for error in errors)
-    return Rung(name, effects, words, *took, tuple(f for f in figures if f.bounds is not None))
+    every = (figure_of(error, *known) for one in budget.solutions for error in errors(one))
+    figures = tuple(replace(error, **mine) for error in every if error.bounds is not None)
+    return Rung(name, effects, words, *took, figures)
 
 
 def _closed_form(case: Case) -> dict[str, float]:

@@ -1,7 +1,7 @@
 """Which model suffices: the cheapest whose every judged error holds against the whole.
 
 In: the error budget of a finished comparison. Out: a judged figure a rung, quantity and friction
-coefficient; what each rung took; which one suffices, and the assumption worth dropping next."""
+coefficient; what each rung took; which one suffices, and which is worth trying next."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
@@ -17,19 +17,17 @@ from comparisons.figures.figure import (
     Series,
     Statement,
     deciding,
-    nearest_to_tolerance,
 )
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.judging import yielding
-from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.ladder import candidates
 from comparisons.judging.ladder.rungs import HALF_PLANE, Rung, rungs
 from comparisons.judging.model_error.error_budget import effects_of_run
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Run, Solved, Study
 
 RUNGS = "rungs"  # series: what each rung took
-# Statements: the cheapest rung that holds; why none does; the next one to try, and what it drops.
-SUFFICES, NONE, ESCALATE_TO, NEXT = "suffices", "none", "escalate to", "next"
+# Statements: the cheapest rung that holds; why none does; the next one to try.
+SUFFICES, NONE, ESCALATE_TO = "suffices", "none", "escalate to"
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
 figure that decides, nearest to its tolerance or farthest beyond, with its uncertainty. A model
 holds where every judged figure does. The last row is what is not known of the whole model itself.
@@ -63,11 +61,11 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
         "peak_memory": Column(tuple(rung.memory for rung in made), "byte"),
     }
     series = (Series(RUNGS, columns, is_account=True),)
-    said = _statements(made, before[MODEL_ERROR], flow.beyond_doubt)
+    said = _statements(made, flow.beyond_doubt)
     return Findings(figures, series, tuple(said))
 
 
-def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Statement]:
+def _statements(rungs: Sequence[Rung], flows: str) -> list[Statement]:
     holding = [] if flows else [rung for rung in rungs if rung.verdict == "holds"]
     half_plane = next(rung for rung in rungs if rung.name == HALF_PLANE)
     said = []
@@ -82,18 +80,7 @@ def _statements(rungs: Sequence[Rung], errors: Findings, flows: str) -> list[Sta
     possible += [rungs[-1].name] * (rungs[-1].verdict != "fails")  # if none is known to that
     if half_plane.verdict != "holds" and not flows and possible:
         said.append(Statement(ESCALATE_TO, possible[0]))
-        if (assumption := _worth_dropping(errors)) is not None:
-            said.append(Statement(NEXT, assumption))
     return said
-
-
-def _worth_dropping(errors: Findings) -> str | None:
-    """The effect that the half-plane's worst judged error is mostly made of."""
-    judged = [f for f in errors.figures if f.against == WHOLE and f.bounds is not None]
-    worst = nearest_to_tolerance(judged)
-    sizes = {part.name: abs(part.value) for part in worst.parts if part.name in EFFECTS}
-    sizes |= {name: size for name, size in worst.unknown.items() if name in EFFECTS}
-    return max(sizes, key=sizes.get, default=None)
 
 
 def may_suffice(errors: Iterable[Figure]) -> bool:
