@@ -30,7 +30,6 @@ from comparisons.output.arrays import RunArrays
 from comparisons.output.flat_csv import (
     Row,
     judged_rows,
-    result_summary,
     right_within,
     rows_of,
     rows_tables,
@@ -167,7 +166,7 @@ class RecordedRun(Printed):
         return _model(model)
 
     def _table(self) -> "RenderableType":
-        return result_summary(self.said)
+        return self.said.shown()
 
 
 @dataclass(frozen=True, repr=False)

@@ -68,8 +68,12 @@ def nearest(name: str, names: Iterable[str], alike: float = 0.0) -> str | None:
 
 
 def one_line(text: str) -> str:
-    """The text without line breaks, and with what a terminal would obey written as escapes."""
-    line = re.sub(r"[ \t\r\n]+", " ", text).strip()
+    """The text without line breaks, `printable`."""
+    return printable(re.sub(r"[ \t\r\n]+", " ", text).strip())
+
+
+def printable(line: str) -> str:
+    """The line with what a terminal would obey written as escapes."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 

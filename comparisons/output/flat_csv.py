@@ -23,7 +23,7 @@ from comparisons.judging import contact
 from comparisons.judging.study import LADDER
 from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.result import FILE, Result, read_result
-from comparisons.output.terminal import first_lines, plain_table, plain_text
+from comparisons.output.terminal import plain_table, plain_text
 from comparisons.studies import meaning
 
 if TYPE_CHECKING:
@@ -145,19 +145,6 @@ def right_within(row: Row, name: str = "run") -> str:
     within."""
     size = "unknown" if row["within"] is None else percent_as_written(rounded_up(row["within"]))
     return f"{row[name]}, right within {size}"
-
-
-def result_summary(result: Result) -> "Group":
-    """A run's title, the verdict, what to paste next, and what it judges, or else its contact."""
-    from rich.console import Group
-    from rich.text import Text
-
-    rows = judged_rows(rows_of(result, result.scene["name"]))
-    verdict = result.verdict.upper(), result.why
-    first = first_lines(result.scene["title"], result.within_words, [verdict])
-    how = {"no_wrap": True, "overflow": "ignore"}  # a command to paste
-    next_steps = (Text.assemble(("Next:", "bold"), f"  {text}", **how) for text in result.next)
-    return Group(*first, *next_steps, "", rows_tables(rows, lambda row: ""))
 
 
 def _cells(row: Row, say: Callable[[str], str]) -> tuple[str, ...]:

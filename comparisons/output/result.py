@@ -18,8 +18,9 @@ from dataclasses import asdict, dataclass, field
 from functools import cached_property, partial
 from math import inf
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, printable
 from comparisons.common.numbers import finite
 from comparisons.common.provenance import as_json
 from comparisons.figures.convergence import Convergence
@@ -40,7 +41,11 @@ from comparisons.judging.ladder.study import ESCALATE_TO, SUFFICES
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
 from comparisons.judging.verdict.headline import headline
 from comparisons.output.arrays import RunArrays
+from comparisons.output.terminal import in_lines, summary
 from comparisons.studies import meaning
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 FILE = "result.json"
 SCHEMA = 3
@@ -62,6 +67,7 @@ class Result:
     verdict: str  # holds | fails | inconclusive | not compared | not converged
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
+    summary: tuple[str, ...]  # lines that the run printed
     findings: Mapping[str, Findings]  # by study
     load: Callable[[], RunArrays] = field(compare=False, repr=False)
 
@@ -96,6 +102,12 @@ class Result:
         """Which model suffices; empty where the run compares nothing."""
         return self.findings.get(LADDER, Findings())
 
+    def shown(self) -> "Text":
+        """The summary for a terminal, which obeys nothing of it."""
+        from rich.text import Text
+
+        return Text("\n".join(map(printable, self.summary)), no_wrap=True, overflow="ignore")
+
     def write(self, folder: Path) -> None:
         """Write result.json."""
         (folder / FILE).write_text(as_json(content_of(self)), encoding="utf-8")
@@ -111,6 +123,7 @@ def result_of(run: Run) -> Result:
         verdict=said.kind,
         why=said.sentence,
         next=said.paste,
+        summary=in_lines(summary(run)),
         findings=run.findings,
         load=partial(RunArrays.of, run),
     )
@@ -123,6 +136,7 @@ def content_of(result: Result) -> dict:
         "schema": SCHEMA,
         **{name: getattr(result, name) for name in SAID},
         "next": list(result.next),
+        "summary": list(result.summary),
         "suffices": result.ladder.said(SUFFICES),
         "escalate_to": result.ladder.said(ESCALATE_TO),
         "coverage": COVERAGE,
@@ -170,7 +184,7 @@ def _result(content: Mapping, folder: Path) -> Result:
             studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
     result = Result(
         **{name: content[name] for name in SAID},
-        next=tuple(content["next"]),
+        **{name: tuple(map(str, content[name])) for name in ("next", "summary")},
         findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
         load=partial(RunArrays.read, folder),
     )

@@ -31,6 +31,7 @@ STYLES |= {"yes": "green"}
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 PLAIN |= {ord("±"): "+-", ord("σ"): "s", ord("√"): "sqrt", ord("δ"): "delta", ord("κ"): "kappa"}
+WIDTH = 80  # columns
 HEADS = {"friction": "mu", "half-plane": "half-\nplane", "mostly by, %": "mostly by, %"}
 HEADS |= {"layered half-plane": "layered\nhalf-\nplane"}
 HEADS |= {"difference": "differ.\n%", "uncertainty": "uncert.\n%", "tolerance": "tol.\n%"}
@@ -59,6 +60,16 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
     return Group(*first, next_step, *commands, "", *tables, "", _facts(run))
+
+
+def in_lines(shown: "RenderableType") -> tuple[str, ...]:
+    """A summary as lines of plain text, in 80 columns."""
+    from rich.console import Console
+
+    console = Console(width=WIDTH, force_terminal=False)
+    with console.capture() as printed:
+        console.print(shown, crop=False)
+    return tuple(line.rstrip() for line in printed.get().splitlines())
 
 
 def first_lines(title: str, within: str, said: Iterable[tuple[str, str]]) -> "list[Text]":

@@ -20,7 +20,6 @@ from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text,
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.judging.verdict.within import rounded_up
-from comparisons.output.flat_csv import result_summary
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
 from comparisons.output.result import Result, read_result
@@ -106,7 +105,7 @@ class Reports:
         from rich.text import Text
 
         if self.summary is None:
-            return Group(*(result_summary(report.result) for report in self.reports))
+            return Group(*(report.result.shown() for report in self.reports))
         table = Table("scene", "verdict", "report", box=None, pad_edge=False)
         for report in self.reports:
             pages = "\n".join(str(path) for path in (report.page, report.pdf) if path is not None)
