@@ -41,18 +41,13 @@ def is_within(value: float, uncertainty: float, low: float, high: float) -> bool
     return False if last < low or first > high else None
 
 
-def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
-    """Verdict on a relative difference."""
-    return AGREE[is_within(difference, uncertainty, -tolerance, tolerance)]
-
-
 def is_decided(difference: float, uncertainty: float, size: float, tolerance: float) -> bool:
     """Whether a difference agrees or differs, whatever effects that change its reference by up to
     `size` in all do to it; all relative."""
     if not size < 1.0:
         return False
     moved = (1.0 + abs(difference)) * size / (1.0 - size)
-    return judge(difference, uncertainty + moved, tolerance) != "inconclusive"
+    return is_within(difference, uncertainty + moved, -tolerance, tolerance) is not None
 
 
 @dataclass(frozen=True)
@@ -227,11 +222,6 @@ class Figures(tuple[Figure, ...]):
     def one(self, **wanted: object) -> Figure | None:
         """The first of these, None without any."""
         return next(iter(self.of(**wanted)), None)
-
-
-def nearest_to_tolerance(errors: Sequence[Figure]) -> Figure:
-    """The judged one farthest outside, or nearest to, its tolerance, uncertainty included."""
-    return max(errors, key=lambda error: error.reach / error.tolerance)
 
 
 def deciding(judged: Sequence[Figure]) -> Figure:

@@ -4,7 +4,7 @@ In: the content of map.json, whose points lie row by row, y outside, x inside.""
 
 import numpy as np
 
-from comparisons.figures.figure import judge
+from comparisons.figures.figure import is_within
 from comparisons.grid.groups import GROUPS
 from comparisons.grid.map_point import TOLERANCES
 from comparisons.grid.points import SOLVED
@@ -23,7 +23,8 @@ def significance(answer: dict, quantity: str) -> dict:
         return {"error": INCONCLUSIVE}
     if abs(error["difference"]) > error["uncertainty"]:
         return {"error": SIGNIFICANT}
-    agrees = judge(error["difference"], error["uncertainty"], TOLERANCES[0]) == "agree"
+    least = TOLERANCES[0]
+    agrees = is_within(error["difference"], error["uncertainty"], -least, least)
     return {"error": BELOW if agrees else INCONCLUSIVE}
 
 

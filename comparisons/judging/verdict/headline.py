@@ -6,21 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import inf
-from typing import Literal
 
-from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
+from comparisons.common.numbers import percent, percent_as_written
 from comparisons.figures.figure import Figure, deciding
-from comparisons.judging import contact, yielding
+from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW
 from comparisons.judging.model_error.model_error import INTERACTION
 from comparisons.judging.model_error.show import flow_taken
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.next_step import next_of, pasted
-from comparisons.judging.verdict.within import Within, name_of, size_of, within_of
+from comparisons.judging.verdict.within import Kind, Within, name_of, obstacle, size_of, within_of
 from comparisons.models.assumptions import WITHIN_LINEAR, laws, without_law
-
-Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
-FLOWS = "No figure of an elastic body holds at such stresses."
 
 
 @dataclass(frozen=True)
@@ -37,13 +33,8 @@ class Headline:
 
 def kind_of(run: Run) -> Kind:
     """Whether the half-plane's assumption holds in a scene."""
-    if not run.converged:
-        return "not converged"
-    if not run.plan.compares:
-        return "not compared"
-    if run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
-        return "fails"
-    return validity(run.model_errors)
+    found = obstacle(run)
+    return found.kind if found else validity(run.model_errors)
 
 
 def validity(errors: Sequence[Figure]) -> Kind:
@@ -65,12 +56,8 @@ def headline(run: Run) -> Headline:
 
 
 def _sentence(run: Run, kind: Kind, within: Within) -> str:
-    if kind == "not converged":
-        return "What was computed is shown, but no conclusion rests on it."
-    if kind == "not compared":
-        return _one_model(run)
-    if run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT):
-        return FLOWS
+    if found := obstacle(run):
+        return found.said
     error = deciding(run.model_errors) if run.model_errors else None
     said = "nothing is judged" if error is None else _decided(run, kind, within, error)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
@@ -158,16 +145,3 @@ def _dominant(error: Figure) -> str:
     if largest is None or sizes[largest] <= 0.5 * abs(error.value):
         return ""
     return f", dominated by {EFFECTS[largest].label}"
-
-
-def _one_model(run: Run) -> str:
-    wanted = ("peak_pressure", "contact_length")
-    peak, length = (run.figures.one(study=contact.NAME, quantity=name).value for name in wanted)
-    p0 = run.problem.hertz.peak_pressure
-    smooth = "the mean" if run.problem.scene.periodic else "Hertz"
-    others = any(study.verdicts(run) for study in run.studies)
-    compared = "only answers from outside were" if others else "nothing was"
-    return (
-        f"Peak pressure {with_unit(peak, 'Pa')}, {significant(peak / p0)} times {smooth}, contact "
-        f"length {with_unit(length, 'm')}; {compared} compared."
-    )

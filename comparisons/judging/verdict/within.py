@@ -7,12 +7,12 @@ It is the largest `Figure.reach` of the judged model errors. What else may move 
 into its uncertainty or its estimates, where the verdict sees it, too; what leaves all of them
 unknown is said in its place."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import ROUND_CEILING, Decimal
 from math import hypot, isfinite
+from typing import Literal
 
-from comparisons.common.numbers import percent, percent_as_written, plain, with_unit
-from comparisons.drawing.tables import in_words
+from comparisons.common.numbers import percent, percent_as_written, plain, significant, with_unit
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
 from comparisons.judging import contact, yielding
@@ -21,8 +21,10 @@ from comparisons.judging.model_error.show import law_range, leaves_flow_out
 from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
 from comparisons.models.assumptions import question
 
+Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 DIGITS = 2  # of a tolerance that a user would write
-OF_LEVELS = (contact.NAME, "running_in")  # studies whose solutions are said level by level
+FLOWS = "No figure of an elastic body holds at such stresses."
+UNFOUNDED = "What was computed is shown, but no conclusion rests on it."
 SMALL = 0.02  # of an error's reach: what is not modelled is not said below it
 
 
@@ -93,21 +95,39 @@ def size_of(run: Run, error: Figure) -> str:
     return f"{size}, {percent(others)} not modelled{by}"
 
 
-def _why_unknown(run: Run) -> str:
-    """Why it is not known, as a clause; nothing where that does not apply."""
+@dataclass(frozen=True)
+class Obstacle:
+    """What keeps a run from a verdict by its errors."""
+
+    kind: Kind
+    why: str  # nothing is known of these, as a clause
+    said: str  # in place of what decides, a sentence
+
+
+def obstacle(run: Run) -> Obstacle | None:
+    """None where the errors decide."""
     if not run.converged:
-        return f"a solver did not converge ({', '.join(_not_converged(run))})"
+        why = f"a solver did not converge ({', '.join(_not_converged(run))})"
+        return Obstacle("not converged", why, UNFOUNDED)
     if not run.plan.compares:
         [name, *_] = run.runs
-        return f"only the {HYPHENATED[name]} model was run"
-    said = run.findings[yielding.NAME].said
-    at_such = None if run.problem.scene.asks_elastic else said(yielding.AT_SUCH_STRESSES)
-    flows = said(yielding.BEYOND_DOUBT) or at_such or ""
-    return flows if flows or run.model_errors else "no figure has a tolerance"
+        why = f"only the {HYPHENATED[name]} model was run"
+        return Obstacle("not compared", why, _one_model(run))
+    flows = run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT)
+    return None if flows is None else Obstacle("fails", flows, FLOWS)
+
+
+def _why_unknown(run: Run) -> str:
+    """Why it is not known, as a clause; nothing where that does not apply."""
+    if found := obstacle(run):
+        return found.why
+    at_such = run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES)
+    flows = "" if run.problem.scene.asks_elastic else at_such
+    return flows or ("" if run.model_errors else "no figure has a tolerance")
 
 
 def _not_converged(run: Run) -> list[str]:
-    """Levels of the models, and what studies say of their own solutions."""
+    """Levels of the models, and studies of further solutions."""
     said = dict.fromkeys(
         f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for case in run.solved.cases
@@ -115,15 +135,23 @@ def _not_converged(run: Run) -> list[str]:
         for level in model.levels
         if not level.converged
     )
-    others = [
-        replace(words, name=study.replace("_", " "))
+    failed = (
+        ", ".join(filter(None, (study.replace("_", " "), LABELS.get(words.source, words.source))))
         for study, found in run.findings.items()
         for words in found.statements
-        if (words.name, words.text) == (CONVERGED, "no") and study not in OF_LEVELS
-    ]
-    said = [*said, *(name for name, _ in in_words(others))]
-    run_in = run.problem.surface.run_in
-    if run_in is not None and not run_in.converged:
-        failed = sum(not one.converged for one in run_in.passes)
-        said.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
-    return said
+        if (words.name, words.text) == (CONVERGED, "no") and study != contact.NAME
+    )
+    return [*said, *failed]
+
+
+def _one_model(run: Run) -> str:
+    wanted = ("peak_pressure", "contact_length")
+    peak, length = (run.figures.one(study=contact.NAME, quantity=name).value for name in wanted)
+    p0 = run.problem.hertz.peak_pressure
+    smooth = "the mean" if run.problem.scene.periodic else "Hertz"
+    others = any(study.verdicts(run) for study in run.studies)
+    compared = "only answers from outside were" if others else "nothing was"
+    return (
+        f"Peak pressure {with_unit(peak, 'Pa')}, {significant(peak / p0)} times {smooth}, contact "
+        f"length {with_unit(length, 'm')}; {compared} compared."
+    )

@@ -1,13 +1,14 @@
 """Verdicts on single quantities and on the half-plane as a whole."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scenes import judged
 
-from comparisons.figures.figure import is_within, judge
+from comparisons.figures.figure import is_within
 from comparisons.judging.verdict.headline import validity
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
@@ -28,11 +29,11 @@ LITTLE = 1e-15  # more than rounding of numbers below 1 loses
     ],
 )
 def test_judge(difference, uncertainty, tolerance, verdict):
-    """Both tables are judged alike."""
-    assert judge(difference, uncertainty, tolerance) == verdict
+    """Models that are compared, and the half-plane's errors."""
     words = {"agree": "holds", "differ": "fails", "inconclusive": "inconclusive"}
     figure = judged("peak_pressure", difference, uncertainty, tolerance=tolerance)
     assert figure.verdict == validity([figure]) == words[verdict]
+    assert replace(figure, against="finite_element").verdict == verdict
 
 
 @pytest.mark.parametrize(
