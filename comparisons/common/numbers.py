@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Decimal
 
 UNKNOWN = "–"
 MINUS = "−"
@@ -120,6 +121,13 @@ def _leading(size: float, digits: int) -> int:
 def percent_as_written(value: float) -> str:
     """A ratio of the scene in percent, no digit more than it has."""
     return f"{100.0 * value:.6g} %"
+
+
+def rounded_up(size: float) -> float:
+    """To two digits, never below it: a tolerance that a user would write."""
+    exact = Decimal(repr(size))
+    step = Decimal(1).scaleb(exact.adjusted() - 1)
+    return float(exact.quantize(step, ROUND_CEILING)) if size else size
 
 
 def plain(value: float | None) -> str:

@@ -7,14 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.numbers import percent, percent_as_written, with_unit
+from comparisons.common.numbers import percent, percent_as_written, rounded_up, with_unit
 from comparisons.figures.quantity import QUANTITIES, error_text
 from comparisons.grid.points import FAILED, failures
 from comparisons.grid.sweep import SWEEP, TABLE
 from comparisons.grid.sweep_picture import DRAWN, PICTURE, POSITION, ZONES, Axis, has_zones
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.flat_csv import Row
 from comparisons.output.terminal import PLAIN, plain_table, plain_text
 from comparisons.studies import quantity_of

@@ -16,12 +16,18 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, one_line, tell
 from comparisons.common.files import check_file, csv_text
-from comparisons.common.numbers import finite, percent, percent_as_written, plain, with_unit
+from comparisons.common.numbers import (
+    finite,
+    percent,
+    percent_as_written,
+    plain,
+    rounded_up,
+    with_unit,
+)
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import LABELS
 from comparisons.judging import contact
 from comparisons.judging.study import LADDER
-from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.result import FILE, Result, read_result
 from comparisons.output.terminal import plain_table, plain_text
 from comparisons.studies import meaning

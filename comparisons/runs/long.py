@@ -10,7 +10,7 @@ from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Lasting, ProgressCallback
 from comparisons.common.tasks import Tasks
 from comparisons.judging.study import Solved
-from comparisons.models.forecast import forecast
+from comparisons.models.plan import forecast
 from comparisons.studies import STUDIES
 
 LONG = 60.0  # seconds, by the laws of cost, from which somebody looks what a run is doing

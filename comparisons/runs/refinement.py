@@ -14,7 +14,6 @@ from comparisons.figures.quantity import label
 from comparisons.judging.comparison import discretisations
 from comparisons.judging.model_error.refinement import LEAST_LEVELS
 from comparisons.judging.study import Solved
-from comparisons.models.forecast import with_one_more
 from comparisons.models.level import (
     ExpectedCost,
     Level,
@@ -23,7 +22,7 @@ from comparisons.models.level import (
     refuse_too_large,
 )
 from comparisons.models.model import Model, scene_model
-from comparisons.models.plan import LONGER
+from comparisons.models.plan import LONGER, with_one_more
 from fem.solver.mumps import FemError
 
 Levels = dict[float, Level]  # one model's on one pitch, by friction coefficient

@@ -13,7 +13,7 @@ from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import with_effects
 from comparisons.judging.study import MODEL_ERROR, Solved, Study
 from comparisons.models.assumptions import assumptions_of
-from comparisons.models.forecast import forecast
+from comparisons.models.plan import forecast
 from comparisons.scenes.surface import ProfileInfo
 
 NAME, ASSUMED = "problem", "assumed"  # the study; its statements of what models assume

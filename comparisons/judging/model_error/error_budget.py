@@ -54,7 +54,7 @@ from comparisons.judging.model_error.refinement import (
 )
 from comparisons.judging.study import MODEL_ERROR, Solved
 from comparisons.judging.yielding import flow_assessment
-from comparisons.models.forecast import flow_seconds, time_with_flow
+from comparisons.models.plan import flow_seconds, time_with_flow
 
 
 def error_budget(solved: Solved, rows: tuple[Figure, ...], tasks: Tasks) -> ErrorBudget:

@@ -9,19 +9,20 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
-from comparisons.common.numbers import percent_as_written, with_unit
+from comparisons.common.numbers import percent, percent_as_written, plain, rounded_up, with_unit
 from comparisons.common.progress import machine_memory
 from comparisons.figures.figure import Figure, deciding
-from comparisons.figures.quantity import HYPHENATED
+from comparisons.figures.quantity import HYPHENATED, QUANTITIES, WHOLE, label
 from comparisons.judging import yielding
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, LAW, SAMPLING, contained, why_not
 from comparisons.judging.model_error.model_error import INPUTS
-from comparisons.judging.study import MODEL_ERROR, Run
-from comparisons.judging.verdict.whole import figures_of_whole
-from comparisons.judging.verdict.within import rounded_up
-from comparisons.models.forecast import time_with_flow, with_one_more
+from comparisons.judging.model_error.show import figure_of_whole
+from comparisons.judging.study import LADDER, MODEL_ERROR, Run
+from comparisons.models.plan import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import TABOR
 from comparisons.scenes.materials import (
@@ -35,6 +36,7 @@ from comparisons.scenes.sections import ElasticSection
 
 AT_TOLERANCE = 0.2  # of the tolerance: an error that is certain to that and still not decided
 PLASTIC = "finite_element.plastic=true"
+SHEARS = ("tau1_max", "txz_max_abs")
 MORE_SAMPLES = "a trace with more samples on the contact"
 
 
@@ -139,6 +141,50 @@ def _candidates(run: Run, kind: str) -> Iterator[Offer]:
             yield Offer(words, (f"body.yield_stress={stress}",), is_known=is_known)
         whole = f"{figures_of_whole(run)} in place of the half-plane's"
         yield Offer("nothing" if kind == "holds" else whole)
+
+
+def figures_of_whole(run: Run) -> str:
+    """The figures to use instead, at the largest friction, each with its uncertainty; before them
+    those that are not known to their tolerance, or that the body cannot bear, and why."""
+    friction, known = max(run.problem.scene.load.friction), run.figures.of(study=LADDER)
+    offered, withheld = [], {}
+    for error in run.model_errors.of(friction=friction):
+        of_whole = known.one(source=WHOLE, quantity=error.quantity, friction=friction) or error
+        unsure, value = of_whole.total, figure_of_whole(run, error)
+        borne = _borne(run, friction) if error.quantity in SHEARS else math.inf
+        size = with_unit(value, QUANTITIES[error.quantity].unit)
+        figure = f"{label(error.quantity)} {size} ± {percent(unsure)}"
+        if value > borne:
+            why = f"more than the body bears, {with_unit(borne, 'Pa')}"
+            withheld.setdefault(why, []).append(figure)
+        elif not unsure <= error.tolerance:
+            why = "finer levels take more budget.time"
+            if of_whole.not_modelled > of_whole.numerical:
+                why = f"{EFFECTS[of_whole.largest_unknown].label} is not modelled"
+            withheld.setdefault(f"not known to the tolerance ({why})", []).append(figure)
+        else:
+            offered.append(figure)
+    where = f" (friction {plain(friction)})" if len(run.problem.scene.load.friction) > 1 else ""
+    said = f"take the whole model's {', '.join(offered)}" if offered else "take no figure"
+    words = (f"{', '.join(figures)}: {why}" for why, figures in withheld.items())
+    return "; ".join([*words, f"{said}{where}"])
+
+
+def _borne(run: Run, friction: float) -> float:
+    """The largest shear [Pa] that a body bears which flows in the whole model: by von Mises, with
+    what it has hardened by; infinite where the flow stress is not known."""
+    body = run.problem.scene.body
+    if body.yield_stress is None or FLOW not in run.data(MODEL_ERROR).selection.whole:
+        return math.inf
+    flow = body.flow_stress()
+    wanted = {"study": yielding.NAME, "quantity": yielding.PLASTIC_STRAIN, "source": WHOLE}
+    strain = run.figures.one(**wanted, friction=friction)
+    if strain is None:
+        hardens = flow.slope(np.zeros(1))[0] or flow.kinematic
+        return math.inf if hardens else flow.yield_stress / 3.0**0.5
+    most = strain.value * (1.0 + strain.numerical)
+    # Prager's back stress in tension is H' times the plastic strain
+    return float(flow.stress(most) + flow.kinematic * most) / 3.0**0.5
 
 
 def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:

@@ -13,13 +13,18 @@ from urllib.parse import quote
 
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import REPORT, check_file, write_whole
-from comparisons.common.numbers import percent, percent_as_written, significant, with_unit
+from comparisons.common.numbers import (
+    percent,
+    percent_as_written,
+    rounded_up,
+    significant,
+    with_unit,
+)
 from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import Findings, grouped
 from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.page.html import inline, rendered
 from comparisons.output.page.pdf import NoPdfError, print_report
 from comparisons.output.result import Result, read_result

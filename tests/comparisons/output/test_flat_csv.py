@@ -8,8 +8,8 @@ import pytest
 from scenes import STEADY
 
 from comparisons.cli import main
+from comparisons.common.numbers import rounded_up
 from comparisons.common.provenance import as_json
-from comparisons.judging.verdict.within import rounded_up
 from comparisons.output.flat_csv import COLUMNS, judged_rows, tidy_rows
 from comparisons.output.result import content_of, result_of
 from comparisons.studies import meaning

@@ -11,9 +11,10 @@ import pytest
 from rich.console import Console
 from scenes import STEADY, refound, with_fields
 
+from comparisons.common.numbers import rounded_up
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.study import Run
-from comparisons.judging.verdict.within import rounded_up, within_of
+from comparisons.judging.verdict.headline import within_of
 from comparisons.output.terminal import SHORT, summary
 
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "": 1.0}

@@ -7,8 +7,7 @@ import re
 import pytest
 from scenes import DATA, PROJECT, asked_in_python, run_of
 
-from comparisons.judging.verdict.headline import headline, kind_of
-from comparisons.judging.verdict.within import within_of
+from comparisons.judging.verdict.headline import headline, kind_of, within_of
 from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Scene, with_tolerance
 

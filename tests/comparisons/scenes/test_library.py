@@ -6,14 +6,13 @@ from scenes import MEASURED, PROJECT, half_plane_at, judging, run_of
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
-from comparisons.common.numbers import percent_as_written
+from comparisons.common.numbers import percent_as_written, rounded_up
 from comparisons.common.progress import Stages
 from comparisons.figures.convergence import grid_convergence
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.model_error.show import not_modelled_line
 from comparisons.judging.rule import values_of
-from comparisons.judging.verdict.headline import kind_of
-from comparisons.judging.verdict.within import rounded_up, within_of
+from comparisons.judging.verdict.headline import kind_of, within_of
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement

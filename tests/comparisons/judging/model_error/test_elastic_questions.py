@@ -10,8 +10,7 @@ from analytic.grid import roller_gap
 from comparisons.common.errors import SceneError
 from comparisons.judging.effects.catalogue import FLOW, LAW
 from comparisons.judging.model_error.show import error_table
-from comparisons.judging.verdict.headline import headline
-from comparisons.judging.verdict.within import within_of
+from comparisons.judging.verdict.headline import headline, within_of
 from comparisons.judging.yielding import lines
 from comparisons.models.operators import operator_of, pressed_on
 from comparisons.models.problem import Levels

@@ -9,7 +9,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.judging.effects.catalogue import FLOW
 from comparisons.judging.model_error.contributions import split_variants
 from comparisons.judging.verdict.headline import headline
-from comparisons.models.forecast import time_with_flow
+from comparisons.models.plan import time_with_flow
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 

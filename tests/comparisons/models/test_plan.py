@@ -1,19 +1,28 @@
-"""What is said of a run before anything is solved, against what the run then takes."""
+"""What is said of a run before anything is solved, against what the run then takes; unknowns over
+all shipped scenes."""
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from scenes import PROJECT, STEEL, changed, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import unsolved
-from comparisons.models.forecast import forecast
-from comparisons.models.plan import make_plan
+from comparisons.models.finite_element.mesh import (
+    Refinement,
+    block_spec,
+    expected_unknowns,
+    roller_spec,
+)
+from comparisons.models.plan import forecast, make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
 from comparisons.runs.refinement import refined
+from comparisons.scenes.files import scene_names
 from comparisons.scenes.scene import Scene
+from meshes.build import build_block
 
 DOCS = PROJECT / "comparisons" / "docs"
 TABLES = {
@@ -93,3 +102,17 @@ def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
     levels = forecast(posed, make_plan(posed, MODELS)).levels
     for level, took in zip(levels, seconds, strict=True):
         assert 0.5 < level.seconds / took < 2.0
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_unknowns_are_those_of_the_meshes(name):
+    """Of the first level, as if contact were all over the extent; with quadratic elements."""
+    scene = Scene.read(name)
+    problem = problem_of(scene.unchecked({"finite_element.element": "P2"}))
+    refinement, patches = Refinement(problem.pitches[0]), np.array([problem.extent])
+    specs = [block_spec(problem, refinement, patches)]
+    if not problem.scene.roller.rigid and not problem.shares_factor:
+        specs.append(roller_spec(problem, specs[0]))
+    made = sum(2 * len(build_block(spec).points) for spec in specs)
+    expected = expected_unknowns(problem, refinement, patches)
+    assert expected == pytest.approx(made, rel=0.2)
