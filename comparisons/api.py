@@ -248,7 +248,7 @@ class Map(Printed):
 
 @dataclass(frozen=True, repr=False)
 class Sweep(Printed):
-    """One scene at many values of its fields; `content` is that of sweep.json, in `folder`."""
+    """Scenes at many values of their fields; `content` is that of sweep.json, in `folder`."""
 
     content: dict
     folder: Path | None
@@ -256,12 +256,9 @@ class Sweep(Printed):
     @property
     def rows(self) -> list[Row]:
         """The figures as records, each with the values of the swept fields."""
-        names = [axis["field"] for axis in self.content["over"]]
-        return [
-            dict(zip(names, point["values"], strict=True)) | row
-            for point in self.content["points"]
-            for row in point["rows"]
-        ]
+        from comparisons.grid.sweep import rows_of_points
+
+        return rows_of_points(self.content)
 
     def plot(self) -> "list[Axes]":
         """Each figure over the first swept field."""
@@ -386,17 +383,19 @@ def map(
 
 
 def sweep(
-    scene: AnyScene,
-    over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
+    scene: AnyScene | Sequence[AnyScene],
+    over: str | Sequence[str] | Mapping[str, Sequence[float | str]] = (),
     models: str | Sequence[str] = "half-plane",
     *,
     workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> Sweep:
-    """One scene at many placements, loads, or values of any field: what `crosscheck sweep` does.
+    """Several scenes, or one at many placements, loads, traces or values of any field: what
+    `crosscheck sweep` does.
 
-    over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", several of them, or values by field
+    over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", "profile.file=FOLDER", several of
+             them, or values by field
     workers  processes, one a core by default, or a Dask scheduler's address
     `out` keeps each point, and goes on from there.
 
@@ -412,7 +411,8 @@ def sweep(
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
     asked = [over] if isinstance(over, str) else list(over)
-    request = sweep_request(scene_of(scene), asked, models_named(models, "models"))
+    scenes = [scene_of(one) for one in (scene if isinstance(scene, list | tuple) else [scene])]
+    request = sweep_request(scenes, asked, models_named(models, "models"))
     with _folder(out, "sweep") as place:
         content = make_sweep(request, place, workers, progress)
     return Sweep(content, None if out is None else place)

@@ -118,29 +118,33 @@ def map_of(
 
 
 def sweep(
-    scene: SceneName,
-    over: Annotated[
+    scenes: Annotated[
         list[str],
-        Option(
-            help="position=40 (placements along the trace), FIELD=A,B,C or FIELD=FROM:TO:N; "
-            "several make every combination."
-        ),
+        Argument(help="Scenes' files or names.", autocompletion=complete_scenes),
     ],
+    over: Annotated[
+        list[str] | None,
+        Option(
+            help="position=40 (placements along the trace), FIELD=A,B,C, FIELD=FROM:TO:N or "
+            "profile.file=FOLDER; several make every combination."
+        ),
+    ] = None,
     settings: Settings = None,
     models: Models = "half-plane",
     workers: Workers = None,
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
-    """Solve a scene at many places, loads or other values."""
+    """Solve several scenes, or one at many places, loads, traces or other values."""
     from comparisons.figures.quantity import models_named
     from comparisons.grid.points import exit_status
     from comparisons.grid.sweep import make_sweep, sweep_request
     from comparisons.grid.table import sweep_table, warnings_of
 
     chosen = models_named(models, "--models")
-    request = sweep_request(scene_with(scene, settings), over, chosen)
-    directory = out or RESULTS / f"sweep-{request.scene.name}"
+    asked = [scene_with(scene, settings) for scene in scenes]
+    request = sweep_request(asked, over or (), chosen)
+    directory = out or RESULTS / f"sweep-{request.name}"
     with progress() as callback:
         content = make_sweep(request, directory, workers, callback)
     say_warnings(warnings_of(content))

@@ -27,6 +27,8 @@ from comparisons.scenes.surface import scene_key, surface_of
 SOLVED, FAILED = "solved", "failed"
 UNCONVERGED = "not converged"  # verdict of a run
 DIED = "the process that solved it died"
+SCENE, TRACE = "scene", "profile.file"  # axes of several scenes, and of several traces
+FILE_AXES = SCENE, TRACE
 
 Value = float | str
 Asked = str | tuple[str, ...]
@@ -69,16 +71,18 @@ def points_of(
 
 
 def refuse_values(points: Sequence[Point], whys: Mapping[str, str | None]) -> None:
-    """Raise SceneError for a value of an axis that no point may have.
+    """Raise SceneError for a value of an axis that no point may have; of files only where all are
+    wrong: one that is wrong among others fails alone.
 
     whys  by the points' keys: why they may not be, None of those that may"""
     for axis in points[0].at:
         by_value: dict[str, list[str | None]] = {}
         for point in points:
             by_value.setdefault(str(point.at[axis]), []).append(whys.get(point.key))
-        for value, wrong in by_value.items():
-            if all(wrong):
-                raise SceneError(f"{wrong[0]} (at {axis} = {value})")
+        wrong = {value: reasons[0] for value, reasons in by_value.items() if all(reasons)}
+        if wrong and (axis not in FILE_AXES or len(wrong) == len(by_value)):
+            value, why = next(iter(wrong.items()))
+            raise SceneError(f"{why} (at {axis} = {value})")
 
 
 Solve = Callable[[Point], dict]  # the answer at a point that has a scene

@@ -1,12 +1,15 @@
-"""A sweep: the values that a user asks for, every point solved, the figures, and how they scatter.
+"""A sweep: scenes, values and traces as a user asks for them, every point a run, and the scatter.
 
-In: a scene, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, a table, pictures."""
+In: scenes, and "FIELD=…" as `crosscheck sweep` takes them. Out: sweep.json, a table, pictures."""
 
+import glob
+import os
 import re
 import shlex
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from math import prod
 from operator import itemgetter
 from pathlib import Path
 
@@ -21,7 +24,16 @@ from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, ver
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
-from comparisons.grid.points import SOLVED, Point, Value, failures, points_of, solved_in
+from comparisons.grid.points import (
+    SCENE,
+    SOLVED,
+    TRACE,
+    Point,
+    Value,
+    failures,
+    points_of,
+    solved_in,
+)
 from comparisons.grid.sweep_picture import FRICTION, PICTURE, POSITION, ZONES, drawn
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
@@ -41,7 +53,7 @@ SWEEP, TABLE = "sweep.json", "sweep.csv"
 FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 2
 MOST = 10_000  # points
-ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N or position=N"
+ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N, position=N or profile.file=FOLDER"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/output")
@@ -52,33 +64,62 @@ _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
 
 @dataclass(frozen=True)
 class SweepRequest:
-    """A sweep: every combination of the values, those of the last field inside."""
+    """A sweep: every combination of scenes and values, those of the last field inside."""
 
-    scene: Scene
+    scenes: tuple[Scene, ...]
     models: tuple[str, ...]
     over: tuple[str, ...]  # FIELD=…, as asked
-    fields: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
+    axes: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
     points: tuple[Point, ...]
 
     @property
     def command(self) -> str:
+        scenes = " ".join(scene.named for scene in self.scenes)
         options = (word for text in self.over for word in ("--over", text))
-        return f"crosscheck sweep {self.scene.named} {shlex.join(options)}"
+        return f"crosscheck sweep {scenes} {shlex.join(options)}".rstrip()
+
+    @property
+    def name(self) -> str:
+        """Of its scene, or of the first and the last."""
+        return "-to-".join(dict.fromkeys(s.name for s in (self.scenes[0], self.scenes[-1])))
+
+    @property
+    def title(self) -> str:
+        return self.scenes[0].title if len(self.scenes) == 1 else f"{len(self.scenes)} scenes"
 
 
-def sweep_request(scene: Scene, over: Sequence[str], models: tuple[str, ...]) -> SweepRequest:
-    """The sweep that "FIELD=…" ask for.
+def sweep_request(
+    scenes: Sequence[Scene], over: Sequence[str], models: tuple[str, ...]
+) -> SweepRequest:
+    """The sweep of scenes that "FIELD=…" ask for.
 
-    over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
+    over     "position=40" placements along the trace, "FIELD=FROM:TO:N", "FIELD=A,B,C", or
+             "profile.file=FOLDER" or a pattern of files; nothing where there are several scenes
     Raises InputError for anything that is wrong with them, SceneError for a value that is."""
-    if not over:
-        raise InputError(f"--over: is missing; allowed is {ALLOWED}")
-    asked = assignments("--over", over, scene, ALLOWED)
-    fields = {name: _distinct(name, _swept(name, text, scene)) for name, text in asked.items()}
-    if (count := int(np.prod([len(values) for values in fields.values()]))) > MOST:
+    if not over and len(scenes) == 1:
+        raise InputError(f"--over: is missing; allowed is {ALLOWED}, or several scenes")
+    named = _named(scenes)
+    asked = assignments("--over", over, scenes[0], ALLOWED)
+    axes = {name: _distinct(name, _swept(name, text, scenes)) for name, text in asked.items()}
+    axes = ({SCENE: tuple(named)} if len(named) > 1 else {}) | axes
+    if (count := prod(map(len, axes.values()))) > MOST:
         raise InputError(f"--over: asks for {count} scenes; allowed are {MOST}")
-    points = points_of(fields, scene.changed, models, CODE)
-    return SweepRequest(scene, models, tuple(over), fields, points)
+
+    def scene_at(at: Mapping[str, Value]) -> Scene:
+        fields = {name: value for name, value in at.items() if name != SCENE}
+        return named[at.get(SCENE, next(iter(named)))].changed(fields)
+
+    return SweepRequest(
+        tuple(named.values()), models, tuple(over), axes, points_of(axes, scene_at, models, CODE)
+    )
+
+
+def _named(scenes: Sequence[Scene]) -> dict[str, Scene]:
+    """Scenes by what tells them apart: their names, else their files, else their numbers."""
+    ways = [scene.name for scene in scenes], [scene.source for scene in scenes]
+    names = next((names for names in ways if len(set(names)) == len(names)), None)
+    names = names or [f"{scene.name} {number}" for number, scene in enumerate(scenes, start=1)]
+    return dict(zip(names, scenes, strict=True))
 
 
 def _distinct(name: str, values: tuple[Value, ...]) -> tuple[Value, ...]:
@@ -92,19 +133,38 @@ def _distinct(name: str, values: tuple[Value, ...]) -> tuple[Value, ...]:
     return tuple(known.values())
 
 
-def _swept(name: str, text: str, scene: Scene) -> tuple[Value, ...]:
+def _swept(name: str, text: str, scenes: Sequence[Scene]) -> tuple[Value, ...]:
     """Values of a field."""
+    if name == POSITION and is_whole(text):
+        return _placements(int(text), scenes)
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 3:
         return _between(name, *parts)
-    if name == POSITION and len(parts) == 1 and is_whole(text):
-        return _placements(int(text), scene)
     values = [part.strip() for part in text.split(",")]
     if len(parts) != 1 or "" in values:
         raise InputError(
             f"--over: is {f'{name}={text}'!r}; allowed is FIELD=A,B,C or FIELD=FROM:TO:N"
         )
+    if name == TRACE:
+        return tuple(file for value in values for file in _files(value, scenes))
     return tuple(map(value_of, values))
+
+
+def _files(text: str, scenes: Sequence[Scene]) -> list[str]:
+    """Files of a folder or of a pattern, by name. They count from the scenes' folder, as any file
+    that a scene names, or else from the working folder."""
+
+    def found(start: Path) -> list[str]:
+        pattern = os.path.join(text, "*") if (start / text).is_dir() else text
+        files = glob.glob(pattern, root_dir=start)
+        return sorted(file for file in files if (start / file).is_file())
+
+    folders = {scene.folder for scene in scenes}
+    files = found(folders.pop()) if len(folders) == 1 else []
+    files = files or [os.path.abspath(file) for file in found(Path())]
+    if not files and glob.has_magic(text):
+        raise InputError(f"--over: {TRACE}={text}: matches no file; allowed are traces that exist")
+    return files or [text]
 
 
 def _between(name: str, first: str, last: str, count: str) -> tuple[Value, ...]:
@@ -120,8 +180,12 @@ def _between(name: str, first: str, last: str, count: str) -> tuple[Value, ...]:
     return tuple(f"{value:.10g} {unit}" if unit else value_of(f"{value:.10g}") for value in values)
 
 
-def _placements(count: int, scene: Scene) -> tuple[float, ...]:
+def _placements(count: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
     """Positions [m] of the roller, evenly over those where the contact stays on the trace."""
+    scene, *others = scenes
+    if others:
+        raise InputError("--over: position: several scenes have each their own; allowed is one "
+                         "scene, or position=A,B,C")  # fmt: skip
     if scene.profile is None:
         raise InputError("--over: position: a smooth scene is the same everywhere; allowed is a "
                          "scene with a profile")  # fmt: skip
@@ -201,15 +265,15 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
         {"values": list(point.at.values()), "rows": (), **answer}
         for point, answer in zip(request.points, answers, strict=True)
     ]
-    fields = request.fields.items()
+    fields = request.axes.items()
     return {
         "schema": SCHEMA,
         "command": request.command,
-        "scene": {"name": request.scene.name, "title": request.scene.title},
+        "scene": {"name": request.name, "title": request.title},
         "models": list(request.models),
         "over": [{"field": name, "values": list(values)} for name, values in fields],
         "points": points,
-        "scatter": scatter(points, FRICTION in request.fields),
+        "scatter": scatter(points, FRICTION in request.axes),
         "versions": versions(),
     }
 
@@ -248,13 +312,18 @@ def _is_scattered(row: Row) -> bool:
     return model and compared and row["quantity"] in QUANTITIES
 
 
+def rows_of_points(content: dict) -> list[Row]:
+    """The figures of every point as records, each with the values of the swept fields first."""
+    names, rows = [axis["field"] for axis in content["over"]], []
+    for point in content["points"]:
+        at = dict(zip(names, point["values"], strict=True))
+        rows += [at | row | at for row in point["rows"]]
+    return rows
+
+
 def sweep_csv(content: dict) -> str:
     """A row for each figure of each point: the swept fields, and the columns of
     `comparisons.output.flat_csv`."""
-    fields = [axis["field"] for axis in content["over"]]
-    rows = (
-        map(harmless, [*point["values"], *(row[name] for name in COLUMNS)])
-        for point in content["points"]
-        for row in point["rows"]
-    )
-    return csv_text([[*fields, *COLUMNS], *rows])
+    columns = dict.fromkeys((*(axis["field"] for axis in content["over"]), *COLUMNS))
+    rows = ([harmless(row[name]) for name in columns] for row in rows_of_points(content))
+    return csv_text([columns, *rows])

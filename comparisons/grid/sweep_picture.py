@@ -2,6 +2,7 @@
 
 In: the content of sweep.json. Out: SVG, the same for the same content."""
 
+import os
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Self
@@ -13,6 +14,7 @@ from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.drawing import style
 from comparisons.drawing.curves import distinct, over, panels
 from comparisons.figures.quantity import LABELS, QUANTITIES
+from comparisons.grid.points import SCENE, TRACE
 from comparisons.judging import contact
 from comparisons.scenes.scene import dimension_of
 from comparisons.studies import quiescent_zone
@@ -25,9 +27,12 @@ if TYPE_CHECKING:
 PICTURE = "sweep.svg"
 ZONES = "quiescent_zone.svg"
 POSITION, FRICTION = "load.position", "load.friction"
+SAMPLES = POSITION, TRACE  # axes whose values are a sample; others are chosen
+WORDS = {POSITION: "position of the roller on the trace", TRACE: "trace", SCENE: "scene"}
 MARKERS = "os^Dv<>"
 WIDTH, TALL, ABOVE, FOOT, LEFT = 7.2, 1.75, 0.3, 0.55, 0.9  # inches, of the sweep's own picture
 HANDLE, CHARACTER, ENTRY = 0.6, 0.075, 0.19  # inches, of its legend
+NAME, MOST_NAMES = 0.17, 100  # inches of each name along x, upright; how many are written
 BAND = "mean ± standard deviation"
 DRAWN = {
     "peak_pressure": "peak pressure",
@@ -71,15 +76,17 @@ class Axis:
         try:
             numbers = np.array([to_si(value, dimension) for value in values])
         except UnitError:
-            places = np.arange(len(values), dtype=float)
-            return cls(field, values, places, list(map(str, values)), is_number=False)
+            places, texts = np.arange(len(values), dtype=float), list(map(str, values))
+            names = [os.path.basename(text) for text in texts] if field == TRACE else texts
+            texts = names if len(set(names)) == len(names) else texts
+            return cls(field, values, places, texts, is_number=False)
         scale = scale_of(numbers, dimension.si_unit)
         places = numbers / scale.factor
         return cls(field, values, places, [plain(float(f"{p:.5g}")) for p in places], scale.name)
 
     @property
     def label(self) -> str:
-        words = "position of the roller on the trace" if self.field == POSITION else self.field
+        words = WORDS.get(self.field, self.field)
         return f"{words} [{self.unit}]" if self.unit else words
 
     def text(self, value: object) -> str:
@@ -97,16 +104,21 @@ def sweep_figure(content: dict) -> "Figure":
     lines = {name: known for name, known in every.items() if known}
     names = list(lines)
     line = next(iter(lines[names[0]].values()), ())
-    sample = axes[0].field == POSITION and len(line) > 2  # other values are chosen
+    sample = axes[0].field in SAMPLES and len(line) > 2
     labels = [*filter(None, lines[names[0]]), *([BAND] if sample else ())]
     wide = HANDLE + CHARACTER * max(map(len, labels), default=0)
     abreast = max(1, int((WIDTH - 0.2) / wide))
+    every_nth = -(-len(axes[0].texts) // MOST_NAMES)
+    written = axes[0].texts[::every_nth]
+    upright = not axes[0].is_number and CHARACTER * len("".join(written)) > WIDTH - LEFT
+    width = max(WIDTH, LEFT + NAME * len(written)) if upright else WIDTH
     foot = FOOT + ENTRY * -(-len(labels) // abreast)
-    drawn, stack = panels(WIDTH, [(ABOVE, TALL)] * len(names), LEFT, foot=foot)
+    foot += CHARACTER * max(map(len, written)) if upright else 0.0
+    drawn, stack = panels(width, [(ABOVE, TALL)] * len(names), LEFT, foot=foot)
     for name, panel in zip(names, stack, strict=True):
         _draw_lines(panel, lines[name], name, sample)
         if not axes[0].is_number:
-            panel.set_xticks(axes[0].places, axes[0].texts)
+            panel.set_xticks(axes[0].places[::every_nth], written, rotation=90.0 * upright)
     over(stack, axes[0].label)
     stack[0].set_title(content["scene"]["title"], loc="left")
     if labels:

@@ -11,7 +11,7 @@ from comparisons.common.numbers import percent, percent_as_written, rounded_up, 
 from comparisons.figures.quantity import QUANTITIES, error_text
 from comparisons.grid.points import FAILED, failures
 from comparisons.grid.sweep import SWEEP, TABLE
-from comparisons.grid.sweep_picture import DRAWN, PICTURE, POSITION, ZONES, Axis, has_zones
+from comparisons.grid.sweep_picture import DRAWN, PICTURE, SAMPLES, ZONES, Axis, has_zones
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.output.flat_csv import Row
@@ -125,10 +125,10 @@ def _error(quantity: str, point: dict) -> str:
 
 
 def _scatter(content: dict) -> "Table":
-    """Smallest and largest of every figure; over placements mean and standard deviation, too, which
-    mean nothing of values that are chosen. Of an error all in its per cent, of a figure the
-    deviation in per cent of the mean."""
-    is_sample = all(axis["field"] == POSITION for axis in content["over"])
+    """Smallest and largest of every figure; over placements and traces mean and standard deviation,
+    too, which mean nothing of values that are chosen. All of an error are in its per cent, of a
+    figure the deviation in per cent of the mean."""
+    is_sample = all(axis["field"] in SAMPLES for axis in content["over"])
     spread = ("mean", "std") if is_sample else ()
     rows = []
     for row in content["scatter"]:

@@ -32,7 +32,7 @@ WAVES = {
 
 
 def request(over):
-    return sweep_request(scene_of(WAVES), over, ("half_plane",))
+    return sweep_request([scene_of(WAVES)], over, ("half_plane",))
 
 
 def values_of(swept, study, quantity):
@@ -41,7 +41,7 @@ def values_of(swept, study, quantity):
 
 def test_placements_keep_the_contact_on_the_trace():
     asked = request(["position=5"])
-    [values] = asked.fields.values()
+    [values] = asked.axes.values()
     problem = problem_of(scene_of(WAVES))
     reach, surface = problem.extent, problem.surface
     start, end = surface.position + surface.profile.x[[0, -1]]
@@ -54,7 +54,7 @@ def test_placements_keep_the_contact_on_the_trace():
 def test_whole_numbers_stay_whole(over):
     asked = request([over])
     assert [point.scene.profile.seed for point in asked.points] == [1, 2]
-    assert [type(seed) for seed in asked.fields["profile.seed"]] == [int, int]
+    assert [type(seed) for seed in asked.axes["profile.seed"]] == [int, int]
 
 
 def test_another_kind_of_load_takes_the_place_of_the_scenes_own():
@@ -288,7 +288,7 @@ def test_wrong_sweeps_are_one_line(over, said):
 
 def test_a_smooth_scene_has_no_placements():
     with pytest.raises(InputError, match="a smooth scene is the same everywhere"):
-        sweep_request(scene_of("smooth"), ["position=4"], ("half_plane",))
+        sweep_request([scene_of("smooth")], ["position=4"], ("half_plane",))
 
 
 def test_stresses_as_arrays():
