@@ -4,7 +4,6 @@ import re
 import shlex
 
 import pytest
-from pydantic.fields import FieldInfo
 from scenes import PROJECT, page_rows
 
 from comparisons.api import run
@@ -14,47 +13,15 @@ from comparisons.figures.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.effects.selection import SHARE_OF_TOLERANCE
 from comparisons.judging.model_error.refinement import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.scenes.fields import allowed, file_fields
+from comparisons.scenes.fields import file_fields
 from comparisons.scenes.finite_element import BLOCK
-from comparisons.scenes.profile import COMMON, VARIETIES
 from comparisons.scenes.scene import Scene, sections_of
+from comparisons.scenes.schema.reference import with_fields
 from comparisons.studies import STUDIES
 
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
-
-
-def every_row(page: str, heading: str) -> list[list[str]]:
-    """Those of all tables whose first column is called `heading` and whose third `allowed`."""
-    cells, inside = [], False
-    for line in TEXT[page].splitlines():
-        if line.startswith(f"| {heading} | is | allowed |"):
-            inside = True
-        elif not line.startswith("|"):
-            inside = False
-        elif inside and not line.startswith("| ---"):
-            cells.append([cell.strip() for cell in line.removesuffix("|")[1:].split(" | ")])
-    return cells
-
-
-def short(words: str) -> str:
-    """What a field may hold, without how to write a unit."""
-    without = re.sub(r': a number in [^ ]+ or "[^"]*"', "", words)
-    return without.replace("a string of one line, ", "")
-
-
-def shown(field: FieldInfo) -> str:
-    """A default as the page has it; empty without one, or where it follows from other fields."""
-    value = field.default
-    if field.is_required() or value is None:
-        return "needed" if field.is_required() else ""
-    value = value.plain() if hasattr(value, "plain") else value
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}`"
-    if isinstance(value, tuple):
-        value = list(value) if len(value) > 1 else value[0]
-    return f"`{value:g}`" if isinstance(value, float) else f"`{value}`"
 
 
 NAMES = re.compile(r"`(\w+)`").findall
@@ -114,23 +81,11 @@ class TestVerdict:
 
 
 class TestReference:
-    @pytest.mark.parametrize("section", SECTIONS)
-    def test_fields_are_those_of_the_scene(self, section):
-        """Their names, what is allowed and the defaults."""
-        model = SECTIONS[section]
-        named = {cells[0].strip("`"): cells for cells in every_row("reference", f"`{section}`")}
-        assert named.keys() == file_fields(model).keys()
-        for name, (_, _, words, *default) in named.items():
-            assert words == short(allowed(model, name))
-            if default:
-                assert default == [shown(file_fields(model)[name])]
-
-    def test_kinds_of_surfaces_have_the_fields_that_are_listed(self):
-        listed = {kind.strip('`"'): rest for kind, *rest in page_rows(TEXT["reference"], "`kind`")}
-        assert listed.keys() == VARIETIES.keys() - {"file"}
-        for kind, cells in listed.items():
-            names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-            assert names == VARIETIES[kind].fields() - {"kind", *COMMON}
+    def test_fields_are_as_the_scene_has_them(self):
+        """`python -m comparisons.scenes.schema.reference` writes them anew."""
+        assert with_fields(TEXT["reference"]) == TEXT["reference"]
+        heads = re.findall(r"^### \[(\w+)", TEXT["reference"], re.M)
+        assert sorted(heads) == sorted(SECTIONS)
 
     def test_quantities_are_those_of_the_studies(self):
         """Those that several studies share are named at the first."""

@@ -39,11 +39,20 @@ def scenes(
     benchmarks: Annotated[
         bool, Option("--benchmarks", help="Those of which figures are published.")
     ] = False,
+    schema: Annotated[
+        bool, Option("--schema", help="JSON Schema of a scene, for completion in editors.")
+    ] = False,
     as_json: Annotated[bool, json_option("names and titles as JSON")] = False,
 ) -> int:
     """List the scenes that come with crosscheck."""
     from comparisons.scenes.files import scene_titles
 
+    if schema:
+        from comparisons.scenes.scene import Scene
+        from comparisons.scenes.schema.json_schema import schema_for_editors
+
+        show_json(schema_for_editors(Scene))
+        return ExitStatus.DONE
     titles = scene_titles(benchmarks)
     width = max(map(len, titles))
     if as_json:

@@ -95,7 +95,7 @@ def yielding_text(body: BodySection) -> str:
         "table": "by a table",
         "kinematic": "kinematically",
     }
-    laws = [words[name] for name in words if name in (body.hardening or {})]
+    laws = [words[name] for name in words if body.hardening and name in body.hardening.laws]
     modulus = body.hardening_modulus
     laws = [f"by {as_written(modulus, 'Pa')}"] * bool(modulus) + laws
     harder = f"hardening {' and '.join(laws)}" if laws else "perfectly plastic"
@@ -121,10 +121,10 @@ def support_text(roller: RollerSection) -> str:
     support = roller.support
     if support is None:
         return "a sector, held at 0.4 of its radius (not given: roller.support)"
-    if support.hub is not None:
-        return f"held on a rigid hub of radius {as_written(support.hub, 'm')}"
+    if roller.hub is not None:
+        return f"held on a rigid hub of radius {as_written(roller.hub, 'm')}"
     words = {"opposite": "held opposite the contact", "half disc": "half a disc, held at its flat"}
-    return words[support.place]
+    return words[support]
 
 
 def _roller(settings: FiniteElementSection, roller: RollerSection) -> str:

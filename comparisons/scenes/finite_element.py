@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, StrictBool
 
 from comparisons.common.units import DIMENSIONLESS
-from comparisons.scenes.fields import Number, OneOf, SceneSection, Truth
+from comparisons.scenes.fields import Number, SceneSection
 
 BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -14,23 +16,42 @@ QUADRATIC_UP_TO = 0.49
 
 
 class FiniteElementSection(SceneSection):
-    """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
+    """Which of the half-plane's assumptions the finite elements keep."""
 
-    roller_shape: Annotated[str, OneOf(("parabola", "circle"))] = "parabola"
-    # of an elastic roller: half-plane, a block | disc, a sector of its circle
-    roller_body: Annotated[str, OneOf(("half-plane", "disc"))] = "half-plane"
-    coupled: Annotated[bool, Truth()] | None = None  # the sliding traction moves the surfaces
-    # linear: the roughness is in the gap, at the place before loading | finite: it is the boundary;
-    # current shape and normals, hyperelastic
-    deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
-    # the body yields where its yield stress is reached; false: elastic bodies are the question;
-    # None: flow is computed where it may matter
-    plastic: Annotated[bool, Truth()] | None = None
-    element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None  # degree of displacements
-    # width and depth, in Hertz half-widths, of the stand-in for an unbounded body, which ends at a
-    # fixed boundary; element size gained per distance from the contact
-    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] = BLOCK
-    growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
+    roller_shape: Literal["parabola", "circle"] = Field(
+        "parabola", description="parabola or exact circle"
+    )
+    roller_body: Literal["half-plane", "disc"] = Field(
+        "half-plane",
+        description="body of an elastic roller: a half-plane, or a sector of its disc",
+    )
+    coupled: StrictBool | None = Field(
+        None,
+        description="sliding traction moves the surfaces; by default as `load.coupled`, and with "
+        "friction at finite deformation and where a body flows",
+    )
+    deformation: Literal["linear", "finite"] = Field(
+        "linear",
+        description="small, with the roughness in the gap; or finite strains of body and roller, "
+        "the trace as boundary, the gap on the deformed surface",
+    )
+    plastic: StrictBool | None = Field(
+        None,
+        description="the body flows at `body.yield_stress`; false: elastic bodies are the "
+        "question; without it flow is computed where it may matter",
+    )
+    element: Literal["P1", "P2", "P3"] | None = Field(
+        None,
+        description="degree of the displacements; by default P3 above a Poisson's ratio of 0.49 "
+        "in a linear body, else P2",
+    )
+    block: Annotated[float, Number(DIMENSIONLESS, ge=10.0, le=5000.0)] = Field(
+        BLOCK,
+        description="half-widths that stand for an unbounded body, which ends at a fixed boundary",
+    )
+    growth: Annotated[float, Number(DIMENSIONLESS, ge=0.05, le=0.5)] = Field(
+        0.2, description="of element size per distance from the contact"
+    )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.nonlinear and self.element not in (None, "P2"):

@@ -1,56 +1,57 @@
 """The hardening of a body that flows, as a scene has it: `body.hardening`."""
 
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import Annotated
 
-from comparisons.common.units import DIMENSIONLESS, PRESSURE, describe
-from comparisons.scenes.fields import MOST_VALUES, FieldType, Number
+from pydantic import Field
 
-STRESS = Number(PRESSURE, above=0.0)
-STRAIN = Number(DIMENSIONLESS, at_least=0.0)
+from comparisons.common.units import DIMENSIONLESS
+from comparisons.scenes.fields import MOST_VALUES, Number, Pressure, SceneSection
+
+Positive = Annotated[float, Number(DIMENSIONLESS, gt=0.0)]
+Strain = Annotated[float, Number(DIMENSIONLESS, ge=0.0)]
+Exponent = Annotated[float, Number(DIMENSIONLESS, gt=0.0, le=1.0)]
+Point = tuple[Strain, Pressure]
 
 
-@dataclass(frozen=True)
-class HardeningField(FieldType):
-    """A table with one isotropic law, {kinematic = …}, or both: by name, what the law takes."""
+class VoceSection(SceneSection):
+    """Voce's law: S - (S - Y) exp(-rate k)."""
 
-    LAWS: ClassVar[dict[str, dict[str, Number]]] = {
-        "voce": {"saturated": STRESS, "rate": Number(DIMENSIONLESS, above=0.0)},
-        "ludwik": {"strength": STRESS, "exponent": Number(DIMENSIONLESS, above=0.0, at_most=1.0)},
-    }
+    saturated: Pressure = Field(description="flow stress S at large strains")
+    rate: Positive = Field(description="of saturation, per plastic strain")
 
-    def read(self, entry: object) -> dict[str, object]:
-        if not isinstance(entry, dict) or not entry:
-            raise self.wrong(f"is {describe(entry)}")
-        names, read = (*self.LAWS, "table", "kinematic"), {}
-        for name, value in entry.items():
-            if name not in names:
-                raise self.wrong(f'holds "{name}"{self.hint(name, names)}')
-            read[name] = self._law(name, value)
-        return read
 
-    def _law(self, name: str, value: object) -> object:
-        if name == "kinematic":
-            return STRESS.read(value)
-        if name == "table":
-            return self._table(value)
-        wanted = self.LAWS[name]
-        if not isinstance(value, dict) or set(value) != set(wanted):
-            raise self.wrong(f"has {name} = {describe(value)}, not {' and '.join(wanted)}")
-        return {key: number.read(value[key]) for key, number in wanted.items()}
+class LudwikSection(SceneSection):
+    """Ludwik's law: Y + strength k^exponent."""
 
-    def _table(self, value: object) -> tuple[tuple[float, float], ...]:
-        rows = value if isinstance(value, list | tuple) else []
-        if not 2 <= len(rows) <= MOST_VALUES:
-            raise self.wrong(f"has a table of {len(rows)} rows, not 2 to {MOST_VALUES}")
-        for row in rows:
-            if not isinstance(row, list | tuple) or len(row) != 2:
-                raise self.wrong(f"has a row {describe(row)} of its table, no pair")
-        return tuple((STRAIN.read(strain), STRESS.read(stress)) for strain, stress in rows)
+    strength: Pressure = Field(description="factor of the power")
+    exponent: Exponent = Field(description="of the plastic strain")
 
-    def allowed(self) -> str:
-        return (
-            'a table with one of table = [[0, "280 MPa"], …] (plastic strain, stress), '
-            "voce = {saturated = …, rate = …} and ludwik = {strength = …, exponent = …}, "
-            'and kinematic = "1 GPa" by itself or beside it'
-        )
+
+class HardeningSection(SceneSection):
+    """One isotropic law, a kinematic one, or both."""
+
+    table: Annotated[tuple[Point, ...], Field(min_length=2, max_length=MOST_VALUES)] | None = Field(
+        None,
+        description="pairs of plastic strain and stress, linear between them, constant beyond",
+        examples=[[[0, "280 MPa"], [0.05, "340 MPa"]]],
+    )
+    voce: VoceSection | None = Field(None, description="S − (S − Y) exp(−rate k)")
+    ludwik: LudwikSection | None = Field(None, description="Y + strength k^exponent")
+    kinematic: Pressure | None = Field(
+        None, description="the yield surface moves by so much stress per plastic strain"
+    )
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if not self.laws:
+            yield "table", "is missing; allowed is at least one of table, voce, ludwik, kinematic"
+
+    @property
+    def laws(self) -> dict[str, object]:
+        """Those that are given, by name, as `analytic.material.hardening` takes them."""
+        given = {name: getattr(self, name) for name in type(self).model_fields}
+        return {
+            name: tuple(dict(law).values()) if isinstance(law, SceneSection) else law
+            for name, law in given.items()
+            if law is not None
+        }

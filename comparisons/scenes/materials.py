@@ -124,11 +124,12 @@ class SolidName(FieldType):
         solid = solid_named(entry) if isinstance(entry, str) else None
         if solid is None:
             hint = f"; {names_for(entry)}" if isinstance(entry, str) else ""
-            raise self.wrong(f"is {describe(entry)}, which is no known solid{hint}")
+            raise ValueError(f"is {describe(entry)}, which is no known solid{hint}")
         return solid.name
 
-    def allowed(self) -> str:
-        return 'the name of a solid such as "carbon steel" (crosscheck materials lists them)'
+    def schema(self) -> dict:
+        words = 'the name of a solid such as "carbon steel" (crosscheck materials lists them)'
+        return {"title": words, "anyOf": [{"enum": list(solids())}, {"type": "string"}]}
 
 
 @cache

@@ -1,28 +1,15 @@
 """The [profile] section: a measured profile or a made one, each variety with fields of its own."""
 
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from analytic.profile import MAX_SAMPLES, MIN_SAMPLES
-from comparisons.common.units import DIMENSIONLESS, LENGTH, describe
-from comparisons.scenes.fields import (
-    FieldType,
-    Length,
-    Number,
-    OneOf,
-    SceneSection,
-    Text,
-    Truth,
-    Unit,
-    Whole,
-    allowed,
-)
+from comparisons.common.units import DIMENSIONLESS, LENGTH
+from comparisons.scenes.fields import Length, Number, SceneSection, Several, Text, Unit
 
 AUTOMATIC = "auto"
 FILTER = ("cutoff", "short_cutoff")
@@ -41,113 +28,121 @@ ON_ONE_PERIOD = {
     "body.width": None,
     "roller.support": None,
 }
-POSITIVE = Number(LENGTH, above=0.0)
-PLACE = Number(LENGTH, at_least=0.0)
-
-
-class CutOff(FieldType):
-    """A length above 0, or "auto"."""
-
-    def read(self, entry: object) -> float | str:
-        if entry == AUTOMATIC:
-            return AUTOMATIC
-        try:
-            return POSITIVE.read(entry)
-        except ValueError as error:
-            raise self.wrong(str(error).partition(";")[0]) from error
-
-    def allowed(self) -> str:
-        return f'{POSITIVE.allowed()}, or "{AUTOMATIC}"'
-
-
-class Segment(FieldType):
-    """[[x0, y0], [x1, y1]]: two points of two lengths each, at least 0."""
-
-    def read(self, entry: object) -> tuple[tuple[float, float], tuple[float, float]]:
-        points = self._pair(entry)
-        start, stop = (tuple(map(self._length, self._pair(point))) for point in points)
-        if start == stop:
-            raise self.wrong("starts where it ends")
-        return start, stop
-
-    def _pair(self, entry: object) -> list | tuple:
-        if isinstance(entry, list | tuple) and len(entry) == 2:
-            return entry
-        size = f" of {len(entry)}" if isinstance(entry, list | tuple) else ""
-        raise self.wrong(f"holds {describe(entry)}{size}")
-
-    def _length(self, entry: object) -> float:
-        try:
-            return PLACE.read(entry)
-        except ValueError as error:
-            raise self.wrong(f"holds a place that {str(error).partition(';')[0]}") from error
-
-    def allowed(self) -> str:
-        return 'two points, such as [["0 um", "10 um"], ["500 um", "10 um"]], none below 0'
-
-
-@dataclass(frozen=True)
-class Columns(FieldType):
-    """Of a table: those of x and height, or that of heights alone, by names or numbers from 0."""
-
-    def read(self, entry: object) -> tuple[str | int, ...]:
-        values = entry if isinstance(entry, list | tuple) else [entry]
-        if len(values) not in (1, 2) or values.count(values[0]) > 1:
-            raise self.wrong(f"is {describe(entry)} of {len(values)}")
-        for value in values:
-            named = isinstance(value, str) and value.strip()
-            if not named and (type(value) is not int or not 0 <= value < MAX_SAMPLES):
-                raise self.wrong(f"holds {describe(value)}")
-        return tuple(values)
-
-    def allowed(self) -> str:
-        return 'one or two columns by name or by number from 0, such as ["x", "z"] or [0, 2]'
-
-
-Ratio = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
-Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
+Ratio = Annotated[float, Number(DIMENSIONLESS, gt=0.0)]
+Share = Annotated[float, Number(DIMENSIONLESS, gt=0.0, le=1.0)]
+Phase = Annotated[float, Number(DIMENSIONLESS, ge=0.0, lt=1.0)]
+Samples = Annotated[StrictInt, Field(ge=MIN_SAMPLES, le=MAX_SAMPLES)]
+Count = Annotated[StrictInt, Field(ge=0, le=MAX_SAMPLES)]
+Seed = Annotated[StrictInt, Field(ge=0, le=2**63 - 1)]
+Coordinate = Annotated[float, Number(LENGTH, ge=0.0)]
+Point = tuple[Coordinate, Coordinate]
+LengthUnit = Annotated[str, Unit(LENGTH)]
+Column = Annotated[Count | Text, Field(title="the name of a column, or its number from 0")]
+Columns = Annotated[tuple[Column, ...], Several(most=2)]
 
 
 class ProfileSection(SceneSection):
-    """A measured profile (`file`) or a made one (`kind`), with the parameters of
-    `analytic.surface.synthetic`, which also checks how they fit together."""
+    """Rough surface, measured (`file`) or computed (`kind`); without this table the body is smooth.
+    `x_unit` or `spacing`, and one of `row`, `column` and `line`, belong to some files."""
 
-    file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None
-    x_unit: Annotated[str, Unit(LENGTH)] | None = None
-    z_unit: Annotated[str, Unit(LENGTH)] | None = None
-    spacing: Length | None = None
-    columns: Annotated[tuple, Columns()] | None = None
-    channel: Annotated[str, Text("the name of a channel, or of a sheet")] | None = None
-    row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
-    column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
-    line: Annotated[tuple, Segment()] | None = None
-    form: Annotated[str, OneOf(("none", "mean", "line", "arc"))] | None = None
-    dropouts: Annotated[str, OneOf(("refuse", "bridge"))] | None = None
-    kind: Annotated[str, OneOf(("sinusoid", "self-affine", "ground", "turned"))] | None = None
-    wavelength: Length | None = None
-    amplitude: Length | None = None
-    samples_per_wavelength: Samples | None = None
-    hurst: Annotated[float, Number(DIMENSIONLESS, above=0.0, at_most=1.0)] | None = None
-    rms_slope: Ratio | None = None
-    rms_height: Length | None = None
-    samples: Samples | None = None
-    length: Length | None = None
-    seed: Annotated[int, Whole(0, 2**63 - 1)] | None = None
-    shortest_wavelength: Length | None = None
-    roll_off_wavelength: Length | None = None
-    longest_wavelength: Length | None = None
-    decay: Ratio | None = None
-    one_sidedness: Ratio | None = None
-    feed: Length | None = None
-    nose_radius: Length | None = None
-    ridge_radius: Length | None = None
-    phase: Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=1.0)] | None = None
-    samples_per_feed: Samples | None = None
-    noise: Length | None = None
-    noise_wavelength: Length | None = None
-    cutoff: Annotated[float | str, CutOff()] | None = None
-    short_cutoff: Length | None = None
-    periodic: Annotated[bool, Truth()] | None = None
+    file: Text | None = Field(
+        None, description="measured trace: the path of its file, from the scene's folder"
+    )
+    x_unit: LengthUnit | None = Field(
+        None, description="of the positions, where the file does not say"
+    )
+    z_unit: LengthUnit | None = Field(
+        None, description="of the heights, where the file does not say"
+    )
+    spacing: Length | None = Field(
+        None, description="of the samples, where the file holds heights alone"
+    )
+    columns: Columns | None = Field(
+        None,
+        description="of a table with more than x and height, by name or by number from 0",
+        examples=[["x", "z"], [0, 2]],
+    )
+    channel: Text | None = Field(
+        None, description="of a file with several, an array of npz, or a sheet of xlsx"
+    )
+    row: Count | None = Field(None, description="of an areal map")
+    column: Count | None = Field(None, description="of an areal map instead")
+    line: tuple[Point, Point] | None = Field(
+        None,
+        description="across an areal map instead, from one point to another",
+        examples=[[["0 um", "10 um"], ["500 um", "10 um"]]],
+    )
+    form: Literal["none", "mean", "line", "arc"] | None = Field(
+        None, description="taken off before the surface is pressed; `line` by default"
+    )
+    dropouts: Literal["refuse", "bridge"] | None = Field(
+        None,
+        description="lost heights and gaps in x: an error (by default), or put on straight lines",
+    )
+    kind: Literal["sinusoid", "self-affine", "ground", "turned"] | None = Field(
+        None, description="of a computed surface"
+    )
+    wavelength: Length | None = Field(None, description="of a sinusoid")
+    amplitude: Length | None = Field(
+        None, description="half of its height from valley to crest; a crest at x = 0"
+    )
+    samples_per_wavelength: Samples | None = Field(None, description="of a sinusoid; 64 by default")
+    hurst: Share | None = Field(None, description="Hurst exponent of a self-affine surface")
+    rms_slope: Ratio | None = Field(
+        None,
+        description="root mean square of the slope over the whole trace; or `rms_height`",
+    )
+    rms_height: Length | None = Field(None, description="root mean square of the heights")
+    samples: Samples | None = Field(None, description="of the trace")
+    length: Length | None = Field(
+        None,
+        description="of the trace; of a sinusoid as long as the contact asks for by default, one "
+        "wavelength where it is periodic",
+    )
+    seed: Seed | None = Field(None, description="of the random numbers; 0 by default")
+    shortest_wavelength: Length | None = Field(
+        None, description="by default 4 samples of a self-affine surface"
+    )
+    roll_off_wavelength: Length | None = Field(
+        None,
+        description="of a ground surface: longer waves are equally high, shorter ones lower",
+    )
+    longest_wavelength: Length | None = Field(
+        None, description="by default the length of a self-affine surface"
+    )
+    decay: Ratio | None = Field(
+        None, description="of a ground surface: amplitudes fall as k^−decay; 1.25 by default"
+    )
+    one_sidedness: Ratio | None = Field(
+        None, description="of a ground surface: skewness about −3 times this; 0.3 by default"
+    )
+    feed: Length | None = Field(
+        None, description="of a turned surface, per revolution; at most the nose radius"
+    )
+    nose_radius: Length | None = Field(None, description="of the tool")
+    ridge_radius: Length | None = Field(
+        None, description="of its ridges; by default a tenth of the nose radius"
+    )
+    phase: Phase | None = Field(None, description="of the ridge at x = 0, in feeds; 0 by default")
+    samples_per_feed: Samples | None = Field(
+        None, description="as many as the ridges ask for by default"
+    )
+    noise: Length | None = Field(
+        None,
+        description="root mean square of what is added to a turned surface; none by default",
+    )
+    noise_wavelength: Length | None = Field(
+        None, description="shortest of the noise; by default a tenth of the feed"
+    )
+    cutoff: Length | Literal[AUTOMATIC] | None = Field(
+        None,
+        description="longer waves are taken off (Gaussian filter, ISO 16610-21); `auto`: as the "
+        "standard chooses",
+    )
+    short_cutoff: Length | None = Field(None, description="shorter waves are taken off")
+    periodic: StrictBool | None = Field(
+        None, description="the trace is one period of an endless surface under a flat body"
+    )
 
     @property
     def variety(self) -> str:
@@ -176,8 +171,9 @@ class ProfileSection(SceneSection):
                 yield name, f"does not belong to {variety.title}; allowed there are {there}"
         for name in variety.needed:
             if getattr(self, name) is None:
-                words = allowed(ProfileSection, name)
-                yield name, f"is missing; allowed is {words} ({variety.title})"
+                yield name, f"is missing for {variety.title}"
+        if self.line is not None and self.line[0] == self.line[1]:
+            yield "line", "starts where it ends"
         for names in variety.one_of:
             yield from self.unless_one_of(names, " and ")
         for names in variety.at_most_one_of:
@@ -228,5 +224,40 @@ class Variety:
         return set().union(self.needed, self.optional, self.defaults, COMMON, *groups)
 
 
-_TABLES = tomllib.loads(Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8"))
-VARIETIES = {name: Variety(**table) for name, table in _TABLES.items()}
+VARIETIES = {
+    "file": Variety(
+        "a measured profile",
+        needed=("file",),
+        # a file that is not text may bring its units and its size
+        optional=("z_unit", "columns", "channel"),
+        defaults={"form": "line", "dropouts": "refuse"},
+        at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
+    ),
+    "sinusoid": Variety(
+        'kind = "sinusoid"',
+        needed=("kind", "wavelength", "amplitude"),
+        optional=("length",),
+        defaults={"samples_per_wavelength": 64},
+    ),
+    "self-affine": Variety(
+        'kind = "self-affine"',
+        needed=("kind", "hurst", "samples", "length"),
+        optional=("shortest_wavelength", "longest_wavelength"),
+        defaults={"seed": 0},
+        one_of=(("rms_slope", "rms_height"),),
+    ),
+    "ground": Variety(
+        'kind = "ground"',
+        needed=(
+            *("kind", "rms_height", "samples", "length"),
+            *("shortest_wavelength", "roll_off_wavelength", "longest_wavelength"),
+        ),
+        defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
+    ),
+    "turned": Variety(
+        'kind = "turned"',
+        needed=("kind", "feed", "nose_radius", "length"),
+        optional=("ridge_radius", "samples_per_feed", "noise", "noise_wavelength"),
+        defaults={"phase": 0.0, "seed": 0},
+    ),
+}

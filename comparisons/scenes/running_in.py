@@ -4,23 +4,37 @@ from collections.abc import Iterator
 from typing import Annotated, Self
 
 import numpy as np
+from pydantic import Field, StrictInt
 
-from comparisons.common.units import LENGTH, LOAD, PRESSURE
-from comparisons.scenes.fields import Length, Number, SceneSection, Several, Whole
+from comparisons.common.units import LENGTH, LOAD
+from comparisons.scenes.fields import Length, Number, Pressure, SceneSection, Several
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
 
 
-class RunningInSection(SceneSection):
-    """Places of the roller one by one (`positions`), or evenly along a `stroke` about its own."""
+Positions = Annotated[tuple[Annotated[float, Number(LENGTH)], ...], Several()]
+Passes = Annotated[StrictInt, Field(ge=2, le=MOST_PASSES)]
 
-    hardness: Annotated[float, Number(PRESSURE, above=0.0)] | None = None  # by default the body's
-    load: Annotated[float, Number(LOAD, above=0.0)] | None = None  # by default the scene's
-    positions: Annotated[tuple[float, ...], Several(Number(LENGTH))] | None = None
-    stroke: Length | None = None
-    passes: Annotated[int, Whole(2, MOST_PASSES)] | None = None
-    sweeps: Annotated[int, Whole(1, MOST_PASSES)] = 10
+
+class RunningInSection(SceneSection):
+    """Running-in before the scene starts: the roller is pressed on at positions along the trace
+    with the pressure capped, and what flows is taken off."""
+
+    hardness: Pressure | None = Field(
+        None, description="pressure at which asperities flow; by default the body's"
+    )
+    load: Annotated[float, Number(LOAD, gt=0.0)] | None = Field(
+        None, description="during running-in; by default the scene's"
+    )
+    positions: Positions | None = Field(None, description="positions on the trace one by one")
+    stroke: Length | None = Field(
+        None, description="range of the roller about its position; or `positions`"
+    )
+    passes: Passes | None = Field(None, description="positions along the stroke; 15 by default")
+    sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = Field(
+        10, description="over all positions, at most"
+    )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(("positions", "stroke"), " and ")

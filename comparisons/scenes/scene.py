@@ -14,27 +14,27 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import Annotated, Self, get_args
+from typing import Self
 
-from pydantic import PrivateAttr, ValidationError, create_model, model_validator
+from pydantic import Field, PrivateAttr, ValidationError, create_model, model_validator
 
 import comparisons.scenes.studies as of_studies
 from comparisons.common.cache import types_in
-from comparisons.common.errors import InputError, SceneError, nearest
+from comparisons.common.errors import InputError, SceneError
 from comparisons.common.units import Dimension, describe
 from comparisons.scenes.fields import (
-    FieldError,
+    Number,
     SceneSection,
     Text,
-    allowed,
-    field_type,
     file_fields,
+    notes_in,
     plain,
 )
 from comparisons.scenes.files import find_scene, name_of, read_toml, value_of
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.running_in import RunningInSection
+from comparisons.scenes.schema.messages import scene_error
 from comparisons.scenes.sections import (
     LINEAR,
     OF_STRESS,
@@ -49,9 +49,6 @@ from comparisons.scenes.sections import (
     ToleranceSection,
 )
 
-# What is often called otherwise.
-MEANT = dict.fromkeys(("force", "load", "line_load", "normal_load"), "load.per_length")
-MEANT |= {"diameter": "roller.radius", "e": "body.youngs_modulus", "nu": "body.poissons_ratio"}
 # Of options, beside "load", whichever it is.
 SHORT = {"position": "load.position", "friction": "load.friction"}
 FIELD = re.compile(r"[\w-]+(\.[\w-]+){0,3}", re.ASCII)
@@ -71,7 +68,7 @@ class Origin:
 class SceneBase(SceneSection):
     """The sections that every scene may have, and how a scene is read, checked and changed."""
 
-    title: Annotated[str, Text("what the scene shows")] | None = None
+    title: Text | None = Field(None, description="what the scene shows: heads tables and report")
     roller: RollerSection
     body: BodySection
     coating: CoatingSection | None = None
@@ -102,7 +99,7 @@ class SceneBase(SceneSection):
         try:
             checked = cls.model_validate(tables)
         except ValidationError as error:
-            raise _scene_error(cls, error, origin.source) from error
+            raise scene_error(cls, error, tables, origin.source) from error
         follows = {name: section.completed(checked) for name, section in checked.sections()}
         scene = checked.model_copy(update={"title": checked.title or origin.name, **follows})
         scene._written, scene._origin = copy.deepcopy(dict(tables)), origin
@@ -286,10 +283,9 @@ def dimension_of(field: str) -> Dimension | None:
     """What the numbers of "table.field" measure; None of what is no number of one dimension."""
     table, _, name = field.partition(".")
     section = sections_of(Scene).get(table)
-    if section is None or name not in file_fields(section):
-        return None
-    kind = field_type(section, name)
-    return getattr(getattr(kind, "item", kind), "dimension", None)
+    info = None if section is None else file_fields(section).get(name)
+    notes = () if info is None else (*info.metadata, *notes_in(info.annotation))
+    return next((note.dimension for note in notes if isinstance(note, Number)), None)
 
 
 def assignments(option: str, texts: Sequence[str], scene: Scene, allowed: str) -> dict[str, str]:
@@ -345,60 +341,3 @@ def with_law(scene: Scene, law: str) -> Scene:
     fields = {f"{name}.law": law for name in constants}
     written = (n for n in constants if "murnaghan" in scene.written[n])
     return scene.changed(fields | dict.fromkeys(f"{n}.murnaghan" for n in written))
-
-
-def _scene_error(scene: type[SceneBase], error: ValidationError, where: str) -> SceneError:
-    """The one line that stands for `error`; `where` names the scene.
-    A misspelt name usually leaves a needed field missing as well, so unknown names come first."""
-    problems = error.errors(include_url=False)
-    unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
-    return SceneError(f"{where}: {_line(scene, (unknown or problems)[0])}")
-
-
-def _line(scene: type[SceneBase], problem: dict) -> str:
-    location, kind = problem["loc"], problem["type"]
-    if kind == "extra_forbidden":
-        return _unknown(scene, location, problem["input"])
-    if kind == "missing" and len(location) == 1:
-        return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
-    if kind == "missing":
-        section, name = sections_of(scene)[location[0]], location[-1]
-        return f"{'.'.join(location)}: is missing; allowed is {allowed(section, name)}"
-    if kind in ("model_type", "dict_type"):
-        name = location[0]
-        return f"{name}: is {describe(problem['input'])}; allowed is a section [{name}]"
-    cause = problem.get("ctx", {}).get("error")
-    if isinstance(cause, FieldError):
-        location = (*location, cause.field)
-    return f"{'.'.join(map(str, location))}: {cause or problem['msg']}"
-
-
-def _unknown(scene: type[SceneBase], location: tuple, value: object) -> str:
-    """A name that no section has: the nearest one, in its own section if there is one alike."""
-    *section, name = (str(part) or '""' for part in location)
-    place, sections = ".".join([*section, name]), sections_of(scene)
-    hints = {table: scene.model_fields[table].annotation for table in sections}
-    # but for those of which there may be several
-    titles = {n: f"[{n}]" for n, hint in hints.items() if sections[n] in (hint, *get_args(hint))}
-    if not section and isinstance(value, dict):
-        return f"{place}: is no known section; the nearest is {_nearest(name, titles)}"
-    fields = {
-        table: {field: f"{table}.{field}" for field in file_fields(sections[table])}
-        for table in titles
-    }
-    inside = {"title": "title", **titles}
-    if section:
-        within = ".".join(section)
-        inside = {field: f"{within}.{field}" for field in file_fields(sections[section[0]])}
-    # of the same name in two sections, the first's: what is pressed, not how uncertain it is
-    anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
-    near = MEANT.get(name.casefold()) or anywhere.get(name.casefold())
-    near = near or _nearest(name, inside, 0.6) or _nearest(name, anywhere, 0.6)
-    near = near or _nearest(name, inside)
-    meant = ", a force per length" if near == "load.per_length" else ""
-    return f"{place}: is no known field; the nearest is {near}{meant}"
-
-
-def _nearest(name: str, shown: dict[str, str], alike: float = 0.0) -> str | None:
-    """How the name most like `name` is shown."""
-    return shown.get(nearest(name.casefold(), shown, alike))

@@ -1,11 +1,10 @@
 """The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import inf
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from analytic.material import LAWS, Law, Material
 from analytic.material.hardening import Hardening
@@ -18,27 +17,20 @@ from comparisons.common.units import (
     TIME,
     Dimension,
     UnitError,
-    describe,
     to_si,
 )
 from comparisons.figures.quantity import QUANTITIES, USUAL
 from comparisons.scenes.fields import (
     Extent,
     ExtentField,
-    FieldType,
     Fraction,
-    Grid,
     Length,
-    Named,
     Number,
-    OneOf,
+    Pressure,
     SceneSection,
     Several,
-    Truth,
-    Whole,
-    allowed,
 )
-from comparisons.scenes.hardening import HardeningField
+from comparisons.scenes.hardening import HardeningSection
 from comparisons.scenes.materials import ELASTIC, Solid, SolidName, kinds_like, solid_named, solids
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
@@ -47,19 +39,24 @@ MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
 WIDEST_HUB = 0.95  # of the roller's radius
 LINEAR = "linear"  # law of elasticity: small strains are the question, of every body
 
-Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
-Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
-PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
+Friction = Annotated[float, Number(DIMENSIONLESS, ge=0.0, le=1.5)]
+PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, ge=0.0, lt=0.5)]
+Constant = Annotated[float, Number(PRESSURE)]
+Points = Annotated[StrictInt, Field(ge=3, le=MOST_STRESS_LINES)]
 # Compared quantities that there are with [stress] alone.
 OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_stress]
 
 
 class SolidSection(SceneSection):
-    """A section that may name a solid, which a file calls its `material`. The solid gives the
-    moduli and its law of elasticity, unless they are written beside the name; the measured
-    constants of a law belong to the solid's own moduli alone."""
+    """A section that may name a solid, which a file calls its `material`."""
 
-    solid: Annotated[str, SolidName()] | None = Field(None, alias="material")
+    FOLLOW = tuple(ELASTIC)
+    solid: Annotated[str, SolidName()] | None = Field(
+        None,
+        alias="material",
+        description="a solid of `crosscheck materials`: gives its moduli, its measured law and, "
+        "with `[heat]`, thermal constants; fields beside it win",
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -110,15 +107,33 @@ def _in_si(value: object, dimension: Dimension) -> float | None:
         return None
 
 
+class MurnaghanSection(SceneSection):
+    """Constants of Murnaghan's law."""
+
+    l: Constant = Field(description="third-order constant")  # noqa: E741
+    m: Constant = Field(description="third-order constant")
+    n: Constant = Field(description="third-order constant")
+
+    @property
+    def constants(self) -> tuple[float, float, float]:
+        return self.l, self.m, self.n
+
+
 class ElasticSection(SolidSection):
     """A body and its law of elasticity at finite strains, neo-Hookean by default, or LINEAR."""
 
-    law: Annotated[str, OneOf((LINEAR, *LAWS))] | None = None
-    murnaghan: Annotated[dict[str, float], Named(("l", "m", "n"), Number(PRESSURE))] | None = None
+    law: Literal[(LINEAR, *LAWS)] | None = Field(
+        None,
+        description="of elasticity at finite strains; of the material, else a range of published "
+        'solids; `"linear"`, of every elastic body: nothing deforms finitely',
+    )
+    murnaghan: MurnaghanSection | None = Field(
+        None, description="third-order constants, with that law"
+    )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.law == "murnaghan" and self.murnaghan is None:
-            yield "murnaghan", f"is missing; allowed is {allowed(type(self), 'murnaghan')}"
+            yield "murnaghan", "is missing"
         if self.law != "murnaghan" and self.murnaghan is not None:
             yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
 
@@ -134,7 +149,7 @@ class ElasticSection(SolidSection):
     def measured_law(self) -> Law | None:
         """That of the solid it is named after, where it has its measured constants."""
         law = solids()[self.solid].law if self.solid else None
-        constants = self.murnaghan and tuple(self.murnaghan.values())
+        constants = self.murnaghan and self.murnaghan.constants
         return law if law is not None and law.murnaghan == constants is not None else None
 
     @property
@@ -142,55 +157,37 @@ class ElasticSection(SolidSection):
         """None of a rigid body."""
         law, measured = Law(), self.measured_law
         if self.law not in (None, LINEAR):
-            constants = self.murnaghan and tuple(self.murnaghan.values())
+            constants = self.murnaghan and self.murnaghan.constants
             law = Law(self.law, constants, measured and measured.standard_errors)
         return Material(self.youngs_modulus, self.poissons_ratio, law)
 
 
-@dataclass(frozen=True)
-class RollerSupport:
-    """What holds an elastic roller: one of PLACES, or a rigid hub or shaft of a radius [m]."""
+class HubSection(SceneSection):
+    """Rigid hub or shaft of a roller."""
 
-    place: str | None = None
-    hub: float | None = None
-
-    PLACES: ClassVar[tuple[str, ...]] = ("opposite", "half disc")
-
-    def plain(self) -> str | dict[str, float]:
-        """As a scene file has it."""
-        return self.place or {"hub": self.hub}
-
-
-@dataclass(frozen=True)
-class RollerSupportField(FieldType):
-    """A place, or a table {hub = …}."""
-
-    hub = Named(("hub",), Number(LENGTH, above=0.0))
-
-    def read(self, entry: object) -> RollerSupport:
-        if isinstance(entry, RollerSupport):
-            return entry
-        if isinstance(entry, dict):
-            return RollerSupport(hub=self.hub.read(entry)["hub"])
-        if entry not in RollerSupport.PLACES:
-            hint = self.hint(entry, RollerSupport.PLACES)
-            raise self.wrong(f"is {describe(entry)}{hint}")
-        return RollerSupport(entry)
-
-    def allowed(self) -> str:
-        places = ", ".join(f'"{place}"' for place in RollerSupport.PLACES)
-        return f'{places} or a table {{hub = …}}, the radius of a hub or shaft such as "2 mm"'
+    hub: Length = Field(description="radius of a hub or shaft", examples=["2 mm"])
 
 
 class RollerSection(ElasticSection):
-    """The smooth body. Over a periodic surface it is flat: a file has no radius, which is infinite
-    once the scene is read."""
+    """Smooth body. Over a periodic surface it is flat."""
 
-    radius: Length | None = None
-    rigid: Annotated[bool, Truth()] = False
-    support: Annotated[RollerSupport, RollerSupportField()] | None = None
-    youngs_modulus: Pressure | None = None
-    poissons_ratio: PoissonsRatio | None = None
+    radius: Length | None = Field(
+        None,
+        description="radius of relative curvature of the pair; needed, but over a periodic "
+        "surface, where the smooth body is flat",
+    )
+    rigid: StrictBool = Field(
+        False, description="the roller keeps its shape; in place of the next two"
+    )
+    youngs_modulus: Pressure | None = Field(
+        None, description="Young's modulus; needed unless `rigid`"
+    )
+    poissons_ratio: PoissonsRatio | None = Field(
+        None, description="Poisson's ratio; needed unless `rigid`"
+    )
+    support: Literal["opposite", "half disc"] | HubSection | None = Field(
+        None, description="what holds an elastic roller as a disc"
+    )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from super().broken_rules()
@@ -199,8 +196,8 @@ class RollerSection(ElasticSection):
         for name, value in elastic.items():
             if self.rigid and value is not None:
                 yield name, "is given beside rigid = true; allowed is one of the two"
-        hub = self.support and self.support.hub
-        if hub and self.radius is not None and hub > WIDEST_HUB * self.radius:
+        hub = self.hub
+        if hub is not None and self.radius is not None and hub > WIDEST_HUB * self.radius:
             most = f"at most {WIDEST_HUB:g} of the radius, {WIDEST_HUB * self.radius:g} m"
             yield "support", f"has a hub of {hub:g} m; allowed is {most}"
         for name, value in moduli.items():
@@ -210,10 +207,15 @@ class RollerSection(ElasticSection):
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if self.radius is None and not (scene.profile and scene.profile.periodic):
-            yield "roller.radius", f"is missing; allowed is {allowed(type(self), 'radius')}"
+            yield "roller.radius", "is missing"
 
     def completed(self, scene: SceneSection) -> Self:
         return self if self.radius is not None else self.model_copy(update={"radius": inf})
+
+    @property
+    def hub(self) -> float | None:
+        """Radius [m] of the hub or shaft that holds it, None where it is held otherwise."""
+        return self.support.hub if isinstance(self.support, HubSection) else None
 
     @property
     def material(self) -> Material | None:
@@ -221,15 +223,32 @@ class RollerSection(ElasticSection):
 
 
 class BodySection(ElasticSection):
-    youngs_modulus: Pressure
-    poissons_ratio: PoissonsRatio
-    hardness: Pressure | None = None
-    yield_stress: Pressure | None = None
-    hardening_modulus: Annotated[float, Number(PRESSURE, at_least=0.0)] | None = None
-    hardening: Annotated[dict[str, object], HardeningField()] | None = None
-    thickness: Length | None = None
-    width: Length | None = None
-    base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
+    """Rough body."""
+
+    youngs_modulus: Pressure = Field(description="Young's modulus")
+    poissons_ratio: PoissonsRatio = Field(description="Poisson's ratio")
+    hardness: Pressure | None = Field(None, description="cap on the contact pressure")
+    yield_stress: Pressure | None = Field(
+        None,
+        description="in tension; the verdict then says how far beyond first flow the load is",
+    )
+    hardening_modulus: Annotated[float, Number(PRESSURE, ge=0.0)] | None = Field(
+        None, description="stress per plastic strain, with `yield_stress`"
+    )
+    hardening: HardeningSection | None = Field(
+        None,
+        description="another law, with `yield_stress` Y: true stress in tension over the "
+        "logarithmic plastic strain k",
+    )
+    thickness: Length | None = Field(
+        None, description="a layer on a rigid base; without it a half-plane"
+    )
+    width: Length | None = Field(
+        None, description="a block between free sides; without it unbounded"
+    )
+    base: Literal["bonded", "frictionless"] | None = Field(
+        None, description="what holds the layer, with `thickness`; bonded by default"
+    )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from super().broken_rules()
@@ -243,16 +262,12 @@ class BodySection(ElasticSection):
             try:
                 self.flow_stress()
             except ValueError as error:
-                right = allowed(type(self), "hardening")
-                yield "hardening", f"is no law: {error}; allowed is {right}"
+                yield "hardening", f"is no law: {error}"
 
     def flow_stress(self) -> Hardening:
         """Of a body with a yield stress; raises ValueError, in one line, where it is no law."""
-        law = self.hardening or {}
-        named = {name: tuple(law[name].values()) for name in HardeningField.LAWS if name in law}
-        modulus, table = self.hardening_modulus or 0.0, law.get("table")
-        kinematic = law.get("kinematic", 0.0)
-        return Hardening(self.yield_stress, modulus, table=table, kinematic=kinematic, **named)
+        laws = self.hardening.laws if self.hardening else {}
+        return Hardening(self.yield_stress, self.hardening_modulus or 0.0, **laws)
 
     def completed(self, scene: SceneSection) -> Self:
         is_layer = self.thickness is not None
@@ -260,24 +275,36 @@ class BodySection(ElasticSection):
 
 
 class CoatingSection(ElasticSection):
-    """Bonded to the body."""
+    """Layer bonded to the body. The finite elements have it."""
 
-    thickness: Length
-    youngs_modulus: Pressure
-    poissons_ratio: PoissonsRatio
+    thickness: Length = Field(description="of the layer bonded to the body")
+    youngs_modulus: Pressure = Field(description="Young's modulus")
+    poissons_ratio: PoissonsRatio = Field(description="Poisson's ratio")
 
 
 class LoadSection(SceneSection):
-    """One kind of load: `per_length` [N/m], `hertz_peak_pressure` [Pa] of the smooth pair,
-    `approach` [m], or `mean_pressure` [Pa] on a periodic surface."""
+    """Load that presses the roller on, by one of the first four fields. Sliding traction is
+    friction times pressure and pulls the rough body towards +x."""
 
-    per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
-    hertz_peak_pressure: Pressure | None = None
-    approach: Length | None = None
-    mean_pressure: Pressure | None = None
-    friction: Frictions = (0.0,)
-    position: Annotated[float, Number(LENGTH)] | None = None
-    coupled: Annotated[bool, Truth()] = False
+    per_length: Annotated[float, Number(LOAD, gt=0.0)] | None = Field(
+        None, description="load; one of these four"
+    )
+    hertz_peak_pressure: Pressure | None = Field(
+        None, description="peak pressure that smooth bodies would have"
+    )
+    approach: Length | None = Field(None, description="of a rigid roller to a layer")
+    mean_pressure: Pressure | None = Field(None, description="of a flat body on a periodic surface")
+    friction: Annotated[tuple[Friction, ...], Several()] = Field(
+        (0.0,), description="coefficient; several give a result for each"
+    )
+    position: Annotated[float, Number(LENGTH)] | None = Field(
+        None,
+        description="of the roller's centre on the trace; the middle by default, on a periodic "
+        "surface half a period from its lowest place",
+    )
+    coupled: StrictBool = Field(
+        False, description="sliding traction moves the surfaces in both models"
+    )
 
     KINDS: ClassVar[tuple[str, ...]] = (
         "per_length",
@@ -315,21 +342,38 @@ class LoadSection(SceneSection):
 
 
 class StressSection(SceneSection):
-    """The points of the subsurface field: |x| <= half_range (None: about the contact), 0 <= z <=
-    depth; `points` (nx, nz)."""
+    """Points of the field below the surface; without this table none is computed. A plain number
+    counts half-widths of the smooth contact."""
 
     STEP = "subsurface stresses"
-    depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
-    half_range: Annotated[Extent, ExtentField()] | None = None
-    points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
+    depth: Annotated[Extent, ExtentField()] = Field(
+        Extent(1.0, in_half_widths=True), description="down to which the field reaches"
+    )
+    half_range: Annotated[Extent, ExtentField()] | None = Field(
+        None,
+        description="to both sides of the roller's centre, 1.5 half-widths by default; about the "
+        "contact where that lies beyond",
+    )
+    points: tuple[Points, Points] = Field(
+        (600, 200), description="along x and along z, at most 50 million in all"
+    )
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if (count := self.points[0] * self.points[1]) > MOST_STRESS_POINTS:
+            yield "points", f"asks for {count} points; allowed are {MOST_STRESS_POINTS} in all"
 
 
 class ToleranceSection(SceneSection):
-    peak_pressure: Fraction = USUAL
-    contact_length: Fraction = USUAL
-    tau1_max: Fraction = USUAL
-    tau1_max_depth: Fraction | None = None
-    txz_max_abs: Fraction | None = None
+    """What is judged, relative. Quantities without a tolerance are shown. Those of stresses need
+    `[stress]`."""
+
+    peak_pressure: Fraction = Field(USUAL, description="largest pressure")
+    contact_length: Fraction = Field(USUAL, description="sum of the patches that touch")
+    tau1_max: Fraction = Field(USUAL, description="largest principal shear stress")
+    tau1_max_depth: Fraction | None = Field(
+        None, description="depth of the largest principal shear stress"
+    )
+    txz_max_abs: Fraction | None = Field(None, description="largest orthogonal shear stress")
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         for name in OF_STRESS:
@@ -340,14 +384,20 @@ class ToleranceSection(SceneSection):
 
 
 class ResolutionSection(SceneSection):
-    """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
-    smooth contact, or `nodes` of the finest of the first levels (none: automatic), and `levels` to
-    begin with."""
+    """How fine a run begins."""
 
-    pitch: Length | None = None
-    elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
-    nodes: Annotated[int, Whole(64, 2_000_000)] | None = None
-    levels: Annotated[int, Whole(2, 6)] = 3
+    pitch: Length | None = Field(None, description="of the coarsest pressure elements")
+    elements: Annotated[float, Number(DIMENSIONLESS, ge=1.0, le=1e4)] | None = Field(
+        None,
+        description="or their number on a half-width of the smooth contact; without all three as "
+        "the surface asks for",
+    )
+    nodes: Annotated[StrictInt, Field(ge=64, le=2_000_000)] | None = Field(
+        None,
+        description="or pressures of the finest of the first levels, at least; "
+        "`--models half-plane` takes a million in seconds",
+    )
+    levels: Annotated[StrictInt, Field(ge=2, le=6)] = Field(3, description="to begin with")
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.pitch is not None and self.elements is not None:
@@ -358,10 +408,16 @@ class ResolutionSection(SceneSection):
 
 
 class BudgetSection(SceneSection):
-    """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
-    whether it computes `effects` that the scene's finite elements do not model, and where "all",
-    those too that cannot change a verdict."""
+    """What a run may take before refinement ends."""
 
-    time: Annotated[float, Number(TIME, above=0.0)] = 300.0
-    memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
-    effects: Annotated[bool | str, Truth(("all",))] = True
+    time: Annotated[float, Number(TIME, gt=0.0)] = Field(
+        300.0, description="of a run, counted by the laws of cost and not by a clock"
+    )
+    memory: Annotated[float, Number(MEMORY, gt=0.0)] = Field(
+        8e9, description="of the finite elements"
+    )
+    effects: StrictBool | Literal["all"] = Field(
+        True,
+        description='compute the effects that may matter; `"all"`: those too that cannot change '
+        "a verdict",
+    )

@@ -39,22 +39,17 @@ from comparisons.common.errors import SceneError
 from comparisons.common.numbers import finite
 from comparisons.common.provenance import digest
 from comparisons.common.units import LENGTH, UnitError, unit_in_si
-from comparisons.scenes.fields import allowed, plain
+from comparisons.scenes.fields import plain
 from comparisons.scenes.header_units import Guesses, header_units
 from comparisons.scenes.profile import AUTOMATIC, COMMON, ProfileSection
 from comparisons.scenes.scene import SceneBase
+from comparisons.scenes.schema.json_schema import allowed
 
 SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
 SINUSOID_WAVES = 3.0  # and at least so many wavelengths
 
 _MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine}
 _MAKERS |= {"ground": ground_texture, "turned": turned}
-# What a message allows for a field that neither the file nor the scene gives.
-_ALLOWED = {
-    "x_unit": f"{allowed(ProfileSection, 'x_unit')}, or spacing where the file has no x",
-    "z_unit": allowed(ProfileSection, "z_unit"),
-    "spacing": allowed(ProfileSection, "spacing"),
-}
 
 
 @dataclass(frozen=True)
@@ -208,10 +203,10 @@ def _measured(table: Mapping, scene: SceneBase, known: KnownTrace | None) -> tup
     try:
         known = known or _read(table, path)
     except MissingUnitError as error:
-        raise SceneError(
-            f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
-            f"({table['file']} {error.message})"
-        ) from error
+        words = allowed(ProfileSection, error.field)
+        words += ", or spacing where the file has no x" if error.field == "x_unit" else ""
+        missing = f"profile.{error.field}: is missing; allowed is {words}"
+        raise SceneError(f"{source}: {missing} ({table['file']} {error.message})") from error
     except (ValueError, OSError) as error:
         raise SceneError(f"{source}: profile.file: {error}") from error
     try:

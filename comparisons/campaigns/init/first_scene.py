@@ -18,9 +18,9 @@ from comparisons.common.files import write_whole
 from comparisons.common.numbers import is_whole
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
-from comparisons.scenes.fields import field_type
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Origin, Scene, sections_of
+from comparisons.scenes.schema.messages import read_field
 
 # Options of `crosscheck init` by the fields that they are, both bodies' for solids and moduli;
 # others are fields of [profile] by the same name.
@@ -70,7 +70,7 @@ def sections_of_options(options: Options) -> Sections:
             value = [int(w) if is_whole(w) else w for w in map(str.strip, value.split(","))]
         for section, field in OPTIONS.get(name, (("profile", name),)):
             try:
-                field_type(kinds[section], field).read(value)
+                read_field(kinds[section], field, value)
             except ValueError as error:
                 raise InputError(f"{option_of(name)}: {error}") from error
             sections.setdefault(section, {})[field] = value

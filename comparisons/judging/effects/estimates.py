@@ -133,9 +133,9 @@ def finite_roller(problem: Problem, shown: Shown) -> Sizes:
     if roller.rigid:
         return {}
     square = _curvature(problem) ** 2
-    if roller.support is not None and roller.support.hub is not None:
+    if roller.hub is not None:
         share = problem.modulus / roller.material.plane_strain_modulus
-        thickness = roller.radius - roller.support.hub
+        thickness = roller.radius - roller.hub
         ratio = problem.hertz.half_width / thickness
         square = max(square, RING / DISC * share * ratio**2)
     return _equal(DISC * square)

@@ -7,6 +7,7 @@ from analytic.material import Law
 from comparisons.judging.effects.catalogue import EFFECTS, contained, with_effects
 from comparisons.judging.effects.laws import OpenLaw
 from comparisons.models.problem import Problem
+from comparisons.scenes.sections import MurnaghanSection
 
 STRAINED = "P2"  # elements of finite deformation
 
@@ -43,7 +44,8 @@ def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
     if variant.quadratic:
         scene = scene.unchecked({"finite_element.element": STRAINED})
     for body, law in variant.laws:
-        constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
+        named = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
+        constants = named and MurnaghanSection(**named)
         scene = scene.unchecked({f"{body}.law": law.name, f"{body}.murnaghan": constants})
     lacking = (EFFECTS[name].beyond for name in contained(problem.scene) - variant.effects)
     least = max((beyond(problem.scene) for beyond in lacking if beyond), default=0.0)

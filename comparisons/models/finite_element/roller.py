@@ -80,13 +80,14 @@ def _beyond_disc(problem: Problem, reached: float, farthest: float) -> str:
 
 def _disc_size(problem: Problem) -> tuple[float, float, float]:
     """Half-width and depth of the flat of a disc, and how far pressures may reach on it [m]."""
-    radius, support = problem.scene.roller.radius, problem.scene.roller.support
-    if support is None:
+    roller = problem.scene.roller
+    radius = roller.radius
+    if roller.support is None:
         half_width, depth = (share * radius for share in SECTOR)
         return half_width, depth, half_width
-    if support.hub is not None:
-        return *ring_size(radius, support.hub), FARTHEST * radius
-    size = {"half disc": half_disc_size, "opposite": opposite_size}[support.place](radius)
+    if roller.hub is not None:
+        return *ring_size(radius, roller.hub), FARTHEST * radius
+    size = {"half disc": half_disc_size, "opposite": opposite_size}[roller.support](radius)
     return size, size, FARTHEST * radius
 
 
@@ -95,7 +96,7 @@ def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     roller's shape on it, which levels off beside the extent."""
     roller = problem.scene.roller
     if is_disc(problem):
-        shaped = bent if roller.support is None else ring if roller.support.hub else disc
+        shaped = bent if roller.support is None else ring if roller.hub else disc
         return shaped(flat, roller.radius)
     if not is_shaped(problem):
         return flat
@@ -109,11 +110,11 @@ def is_shaped(problem: Problem) -> bool:
 
 def disc_support(problem: Problem) -> Support:
     """How the flat of a disc is held."""
-    support = problem.scene.roller.support
-    if support is None:
+    roller = problem.scene.roller
+    if roller.support is None:
         return Support("bonded", "free")
     # a ring's sides meet in one line, which stays where it is by symmetry
-    return Support("bonded", "rollers" if support.hub else "fixed")
+    return Support("bonded", "rollers" if roller.hub else "fixed")
 
 
 def levelled(roller: Roller, reach: float) -> Callable[[np.ndarray], np.ndarray]:

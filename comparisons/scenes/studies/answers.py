@@ -4,12 +4,11 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, Field, StrictInt
 
 from comparisons.common.errors import InputError
 from comparisons.common.units import (
@@ -22,62 +21,76 @@ from comparisons.common.units import (
 )
 from comparisons.figures.quantity import LABELS
 from comparisons.scenes.fields import (
-    FieldType,
     Fraction,
     Number,
-    OneOf,
     SceneSection,
     Several,
     Text,
     Unit,
-    Whole,
 )
 from comparisons.scenes.files import read_toml
 from comparisons.scenes.header_units import unit_of_column
 from comparisons.scenes.profile import Columns
 
 NAME = re.compile(r"[A-Za-z][\w-]{0,39}", re.ASCII)
-PATH = Text("the path of a file, from the scene's folder")
-UNITS = {"length": Unit(LENGTH), "stress": Unit(PRESSURE)}
+UNITS = {"length": LENGTH, "stress": PRESSURE}
 COMMON = {"length": "mm", "stress": "MPa"}  # an example of each
+Offset = Annotated[float, Number(LENGTH)]
 
 
-@dataclass(frozen=True)
-class Units(FieldType):
-    """A table of the file's units, {length = "mm", stress = "MPa"}; those of SI where not named."""
+class UnitsSection(SceneSection):
+    """Units of a file; those of SI where not named."""
 
-    def read(self, entry: object) -> dict[str, str]:
-        if not isinstance(entry, dict) or set(entry) - set(UNITS):
-            raise self.wrong(f"is {describe(entry)}")
-        return {name: UNITS[name].read(unit) for name, unit in entry.items()}
-
-    def allowed(self) -> str:
-        return 'a table such as {length = "mm", stress = "MPa"}'
+    length: Annotated[str, Unit(LENGTH)] | None = Field(None, description="of positions")
+    stress: Annotated[str, Unit(PRESSURE)] | None = Field(None, description="of stresses")
 
 
 class AnswerSection(SceneSection):
-    file: Annotated[tuple[str, ...], Several(PATH, repeated=True)]  # one for each resolution
-    columns: Annotated[tuple, Columns()] = (0, 1)  # of a table: those of x and pressure
-    # the column of a table, or the array of a mesh, that holds the traction on the body towards +x;
-    # with a minus before its name, the opposite one; None: of a mesh the stress on its top
-    shear: Annotated[tuple, Columns()] | None = None
-    units: Annotated[dict[str, str], Units()] | None = None
-    # axis of the file out of the rough body, with its sign; None: found out
-    up: Annotated[str, OneOf(("y", "-y", "z", "-z"))] | None = None
-    # [m] where the scene's origin lies in the file, along its x and along `up`
-    x_origin: Annotated[float, Number(LENGTH)] = 0.0
-    z_origin: Annotated[float, Number(LENGTH)] = 0.0
-    # array of a mesh that holds it; None: minus the stress on its top
-    pressure: Annotated[str, Text("the name of an array, or of a component of one")] | None = None
-    step: Annotated[int, Whole(0, 10**6)] | None = None  # of several in time; None: the last
-    # coefficient that it is of; None: the only one
-    friction: Annotated[float, Number(DIMENSIONLESS, at_least=0.0)] | None = None
-    scatter: Fraction | None = None  # relative, of measured data
+    """Answer of another code, one table for each: NAME begins with a letter and has up to 39 more
+    letters, digits, `-` and `_`. A FILE.toml after `--answer` holds such a table itself, with the
+    file beside it."""
+
+    file: Annotated[tuple[Text, ...], Several(repeated=True)] = Field(
+        description="a file for each resolution of the answer, from the scene's folder"
+    )
+    columns: Columns = Field(
+        (0, 1),
+        description="of a table: x and pressure, by name or by number from 0",
+        examples=[["x", "p"], [0, 2]],
+    )
+    shear: Columns | None = Field(
+        None,
+        description="beside `[partial_slip]`: the column of a table, or the array of a mesh such "
+        'as `"-CONTACT.4"`, that holds the traction on the body towards +x, after a minus its '
+        "opposite; by default the stress on a mesh's top",
+    )
+    units: UnitsSection | None = Field(
+        None, description="of the file; by default those that a table's columns name, else SI"
+    )
+    up: Literal["y", "-y", "z", "-z"] | None = Field(
+        None,
+        description="axis of the file out of the rough body, with its sign; found by default: the "
+        "body reaches far to one side",
+    )
+    x_origin: Offset = Field(0.0, description="where the scene's origin lies in the file")
+    z_origin: Offset = Field(0.0, description="the same along `up`")
+    pressure: Text | None = Field(
+        None,
+        description='array of a mesh that holds the pressure, such as `"CONTACT.3"`; by default '
+        "minus the normal stress on the body's top",
+    )
+    step: Annotated[StrictInt, Field(ge=0, le=10**6)] | None = Field(
+        None, description="of several in time; the last by default"
+    )
+    friction: Annotated[float, Number(DIMENSIONLESS, ge=0.0)] | None = Field(
+        None, description="coefficient, where the scene has several"
+    )
+    scatter: Fraction | None = Field(None, description="of measured data, relative")
 
     def unit(self, kind: str, column: str = "") -> float:
         """In SI, that of a length or a stress: as `units` has it, else as the column's name does,
         else 1. Raises ValueError for a column that says it has another dimension."""
-        dimension, unit = UNITS[kind].dimension, (self.units or {}).get(kind)
+        dimension, unit = UNITS[kind], getattr(self.units, kind, None)
         try:
             unit = unit or unit_of_column(column, dimension)
         except UnitError as error:
@@ -110,8 +123,8 @@ def units_named(text: str) -> dict[str, str]:
     """A unit of length and one of stress, or one of them: mm,MPa. Raises InputError for others."""
     units, words = {}, text.split(",")
     for kind, unit in product(UNITS, words):
-        with suppress(ValueError):
-            units[kind] = UNITS[kind].read(unit)
+        with suppress(UnitError):
+            units[kind] = Unit(UNITS[kind]).read(unit)
     if len(units) != len(words):
         allowed = "a unit of length and one of stress, such as mm,MPa"
         raise InputError(f"--units: is {describe(text)}; allowed is {allowed}")

@@ -1,7 +1,9 @@
 """The [heat] section: sliding speed, and how both bodies conduct the heat of friction."""
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated
+from typing import Annotated, Literal
+
+from pydantic import Field, StrictBool
 
 from analytic.material import ThermalMaterial
 from comparisons.common.units import (
@@ -13,42 +15,56 @@ from comparisons.common.units import (
     SPEED,
     TEMPERATURE,
 )
-from comparisons.scenes.fields import Fraction, Length, Number, OneOf, SceneSection, Truth, allowed
+from comparisons.scenes.fields import Fraction, Length, Number, SceneSection
 from comparisons.scenes.materials import solid_named
 
-Conductivity = Annotated[float, Number(CONDUCTIVITY, above=0.0)]
-Density = Annotated[float, Number(DENSITY, above=0.0)]
-SpecificHeat = Annotated[float, Number(SPECIFIC_HEAT, above=0.0)]
-Expansion = Annotated[float, Number(EXPANSION, above=0.0, at_most=1e-3)]
+Conductivity = Annotated[float, Number(CONDUCTIVITY, gt=0.0)]
+Density = Annotated[float, Number(DENSITY, gt=0.0)]
+SpecificHeat = Annotated[float, Number(SPECIFIC_HEAT, gt=0.0)]
+Expansion = Annotated[float, Number(EXPANSION, gt=0.0, le=1e-3)]
 CONSTANTS = ("conductivity", "density", "specific_heat")
 
 
 class HeatSection(SceneSection):
-    """By default the roller takes the contact with it: the body sees a moving source."""
+    """Heat of friction; it needs `load.friction` above 0."""
 
     STEP = "frictional heat"
-    speed: Annotated[float, Number(SPEED, above=0.0)]  # [m/s] of sliding
-    # speed over the mean of both surfaces' speeds past the contact: -2, the contact stays on the
-    # body; 2, it stays on the roller
-    slide_to_roll: Annotated[float, Number(DIMENSIONLESS, at_least=-2.0, at_most=2.0)] = 2.0
-    body_conductivity: Conductivity
-    body_density: Density
-    body_specific_heat: SpecificHeat
-    roller_conductivity: Conductivity
-    roller_density: Density
-    roller_specific_heat: SpecificHeat
-    coating_conductivity: Conductivity | None = None
-    coating_density: Density | None = None
-    coating_specific_heat: SpecificHeat | None = None
-    bulk_temperature: Annotated[float, Number(TEMPERATURE, at_least=0.0)] = 293.15
-    # of a body with thickness, by default held at that temperature
-    base: Annotated[str, OneOf(("held", "insulated"))] | None = None
-    # from the contact to where a body that it stays on has that temperature: by default the radius
-    reach: Length | None = None
-    tolerance: Fraction = 0.05  # relative, of temperatures and thermal stresses
-    stresses: Annotated[bool, Truth()] = False
-    body_expansion: Expansion | None = None
-    coating_expansion: Expansion | None = None
+    FOLLOW = tuple(f"{body}_{constant}" for body in ("body", "roller") for constant in CONSTANTS)
+    speed: Annotated[float, Number(SPEED, gt=0.0)] = Field(description="of sliding")
+    slide_to_roll: Annotated[float, Number(DIMENSIONLESS, ge=-2.0, le=2.0)] = Field(
+        2.0,
+        description="speed over the mean speed of both surfaces past the contact, not 0; -2: the "
+        "contact stays on the body, 2: on the roller",
+    )
+    body_conductivity: Conductivity = Field(description="of the rough body")
+    body_density: Density = Field(description="of the rough body")
+    body_specific_heat: SpecificHeat = Field(description="of the rough body")
+    roller_conductivity: Conductivity = Field(description="of the roller")
+    roller_density: Density = Field(description="of the roller")
+    roller_specific_heat: SpecificHeat = Field(description="of the roller")
+    coating_conductivity: Conductivity | None = Field(None, description="needed with `[coating]`")
+    coating_density: Density | None = Field(None, description="needed with `[coating]`")
+    coating_specific_heat: SpecificHeat | None = Field(None, description="needed with `[coating]`")
+    bulk_temperature: Annotated[float, Number(TEMPERATURE, ge=0.0)] = Field(
+        293.15, description="of both bodies [K]"
+    )
+    base: Literal["held", "insulated"] | None = Field(
+        None,
+        description="of a body with `thickness`: at the bulk temperature (by default) or insulated",
+    )
+    reach: Length | None = Field(
+        None,
+        description="from the contact to where a body at rest, and the disc, has the bulk "
+        "temperature; by default the roller's radius",
+    )
+    tolerance: Fraction = Field(0.05, description="of temperatures and thermal stresses")
+    stresses: StrictBool = Field(
+        False, description="add the thermal stresses of the body; needs `[stress]`"
+    )
+    body_expansion: Expansion | None = Field(None, description="needed with `stresses`")
+    coating_expansion: Expansion | None = Field(
+        None, description="needed with `stresses` and `[coating]`"
+    )
 
     @classmethod
     def followed(cls, tables: Mapping) -> Mapping:
@@ -113,7 +129,7 @@ class HeatSection(SceneSection):
                 yield f"heat.{name}", "is given without use; allowed with stresses = true"
             elif is_needed and not is_there:
                 why = " for stresses = true" if name == "body_expansion" else ""
-                yield f"heat.{name}", f"is missing{why}; allowed is {allowed(type(self), name)}"
+                yield f"heat.{name}", f"is missing{why}"
         for there, what in (
             (scene.stress is None, "without [stress]; allowed with it"),
             (scene.body.width is not None, "for a body of finite width; allowed without"),

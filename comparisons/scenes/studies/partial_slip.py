@@ -3,24 +3,38 @@
 from collections.abc import Iterator
 from typing import Annotated
 
-from comparisons.common.units import DIMENSIONLESS, PRESSURE
-from comparisons.scenes.fields import Fraction, Number, SceneSection, Several, Whole
+from pydantic import Field, StrictInt
 
-Share = Number(DIMENSIONLESS, above=-1.0, below=1.0)
+from comparisons.common.units import DIMENSIONLESS, PRESSURE
+from comparisons.scenes.fields import Fraction, Number, SceneSection, Several
+
+Share = Annotated[float, Number(DIMENSIONLESS, gt=-1.0, lt=1.0)]
 
 
 class PartialSlipSection(SceneSection):
-    """Tangential loads, towards +x on the body, over that of sliding (friction times load)."""
+    """Tangential load that does not make the contact slide, at small strains; it needs
+    `load.friction` above 0."""
 
-    load: Annotated[float, Number(DIMENSIONLESS, above=0.0, below=1.0)] | None = None
-    # one after the other
-    loads: Annotated[tuple[float, ...], Several(Share, repeated=True)] | None = None
-    # [Pa] of the body along x, tensile, at the largest load; in phase with the loads
-    bulk_stress: Annotated[float, Number(PRESSURE)] = 0.0
-    # steps of the normal load that unlike bodies are pressed by, and of a tangential one from
-    # nothing to sliding
-    increments: Annotated[int, Whole(2, 512)] = 16
-    tolerance: Fraction = 0.05  # relative, of both models' figures
+    load: Fraction | None = Field(
+        None,
+        description="tangential load on the body towards +x, over friction times normal load; or "
+        "`loads`",
+    )
+    loads: Annotated[tuple[Share, ...], Several(repeated=True)] | None = Field(
+        None,
+        description="several, one after the other; 0 alone presses unlike bodies, which friction "
+        "holds",
+    )
+    bulk_stress: Annotated[float, Number(PRESSURE)] = Field(
+        0.0,
+        description="of the body along x, tensile, at the largest load and in phase with all",
+    )
+    increments: Annotated[StrictInt, Field(ge=2, le=512)] = Field(
+        16,
+        description="of the normal load, and of a tangential one up to sliding, where bodies are "
+        "unlike",
+    )
+    tolerance: Fraction = Field(0.05, description="of both models' figures")
 
     @property
     def path(self) -> tuple[float, ...]:

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator
 from decimal import Decimal
-from typing import Annotated
+from typing import Literal
+
+from pydantic import Field, StrictBool
 
 from comparisons.common.numbers import significant
 from comparisons.common.units import LENGTH, PRESSURE, UnitError, to_si, unit_in_si
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.scenes.fields import Fraction, OneOf, SceneSection, Text, Truth
+from comparisons.scenes.fields import Fraction, SceneSection, Text
 
 DIGITS = 5  # of ours
 LOWERING = "lowering"  # of the body's surface under the roller's centre, against its base
@@ -20,16 +22,32 @@ DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys((*LENGTHS, *LOWE
 
 
 class PublishedSection(SceneSection):
-    quantity: Annotated[str, OneOf(tuple(DIMENSIONS))]
-    value: Annotated[str, Text('a number and its unit, as printed, such as "3585.4 MPa"')]
-    # relative, of what is published; None: half a unit of the last digit
-    scatter: Fraction | None = None
-    # of ours, which is judged by it; None: the last that is run
-    model: Annotated[str, OneOf(tuple(HYPHENATED.values()))] | None = None
-    source: Annotated[str, Text("where it stands")]
-    read: Annotated[bool, Truth()] = True  # whether the source itself was read
-    doubtful: Annotated[bool, Truth()] = False  # shown, and not judged
-    note: Annotated[str, Text("what it is, or why it is doubtful")] | None = None
+    """What others state of the same contact, one table a figure; NAME is any text."""
+
+    quantity: Literal[tuple(DIMENSIONS)] = Field(
+        description="which figure; `lowering` is that of the body's surface under the roller "
+        "against its base, by the finite elements; `held_lowering` and `held_pressure` that and "
+        "the largest pressure at the end of `[partial_slip]`"
+    )
+    value: Text = Field(
+        description="the figure: a number and its unit, as printed", examples=["3585.4 MPa"]
+    )
+    scatter: Fraction | None = Field(
+        None,
+        description="of what is published, relative; by default half a unit of the last digit",
+    )
+    model: Literal[tuple(HYPHENATED.values())] | None = Field(
+        None, description="which of ours is judged by it; by default the last that is run"
+    )
+    source: Text = Field(description="document and page")
+    read: StrictBool = Field(True, description="whether the source itself was read")
+    doubtful: StrictBool = Field(
+        False,
+        description="shown, and not judged, because its own source speaks against it; needs `note`",
+    )
+    note: Text | None = Field(
+        None, description="what a reader should know, or why the figure is doubtful"
+    )
 
     @property
     def size(self) -> float:

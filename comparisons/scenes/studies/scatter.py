@@ -5,8 +5,11 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Annotated
 
+from pydantic import Field, StrictInt
+
 from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, Dimension, describe
-from comparisons.scenes.fields import FieldType, Length, Number, SceneSection, Whole, field_type
+from comparisons.scenes.fields import WITH_UNIT, FieldType, Length, Number, SceneSection, in_si
+from comparisons.scenes.schema.messages import read_field
 
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 FEWEST, MOST = 8, 4096  # samples
@@ -60,52 +63,75 @@ class SpreadField(FieldType):
             return self._range(entry)
         way = "relative" if isinstance(entry, str) and entry.rstrip().endswith("%") else "absolute"
         if way not in self.ways:
-            raise self.wrong(f"is {describe(entry)}")
-        value = self.in_si(entry, self.dimension if way == "absolute" else DIMENSIONLESS)
+            raise ValueError(f"is {describe(entry)}")
+        value = in_si(entry, self.dimension if way == "absolute" else DIMENSIONLESS)
         if not value > 0.0:
-            raise self.wrong(f"is {describe(entry)}")
+            raise ValueError(f"is {describe(entry)}")
         return Spread(value, relative=way == "relative")
 
     def _range(self, entry: dict) -> Spread:
         ends = entry.get("range")
         if set(entry) != {"range"} or not isinstance(ends, list | tuple) or len(ends) != 2:
-            raise self.wrong("is a table that is no range of two values")
-        low, high = (self.in_si(end, self.dimension) for end in ends)
+            raise ValueError("is a table that is no range of two values")
+        low, high = (in_si(end, self.dimension) for end in ends)
         if not low < high:
-            raise self.wrong(f"has a range from {low:g} to {high:g}")
+            raise ValueError(f"has a range from {low:g} to {high:g}")
         return Spread(range=(low, high))
 
-    def allowed(self) -> str:
-        number = Number(self.dimension, above=0.0).allowed()
-        words = {
-            "absolute": f"a standard deviation, {number}",
-            "relative": 'a standard deviation in per cent, as "2 %"',
-            "range": "{range = [low, high]}",
+    def schema(self) -> dict:
+        ends = {"type": "array", "minItems": 2, "maxItems": 2}
+        forms = {
+            "absolute": {
+                "title": f"a standard deviation, {Number(self.dimension, gt=0.0).allowed()}",
+                "anyOf": [{"type": "number", "exclusiveMinimum": 0}, WITH_UNIT],
+            },
+            "relative": {
+                "title": 'a standard deviation in per cent, as "2 %"',
+                "type": "string",
+                "pattern": "%\\s*$",
+            },
+            "range": {
+                "title": "{range = [low, high]}",
+                "type": "object",
+                "properties": {"range": ends},
+                "required": ["range"],
+                "additionalProperties": False,
+            },
         }
-        return ", or ".join(words[way] for way in self.ways)
+        return {"anyOf": [forms[way] for way in self.ways]}
 
 
-Modulus = Annotated[Spread, SpreadField(PRESSURE)] | None
-Ratio = Annotated[Spread, SpreadField(DIMENSIONLESS)] | None
+LengthSpread = Annotated[Spread, SpreadField(LENGTH)]
+Modulus = Annotated[Spread, SpreadField(PRESSURE)]
+Ratio = Annotated[Spread, SpreadField(DIMENSIONLESS)]
+Position = Annotated[Spread, SpreadField(LENGTH, ("absolute", "range"))]
+Relative = Annotated[Spread, SpreadField(DIMENSIONLESS, ("relative",))]
+Range = Annotated[Spread, SpreadField(LENGTH, ("range",))]
 
 
 class ScatterSection(SceneSection):
-    """Inputs by name. `samples` of each of two independent designs, a power of two, after Sobol;
-    `correlation_length` [m] of the noise, by default white."""
+    """How uncertain inputs are. A text in per cent counts from the scene's value. Normal
+    distributions are cut off at 3 standard deviations."""
 
-    samples: Annotated[int, Whole(FEWEST, MOST)] = 64
-    seed: Annotated[int, Whole(0, 2**32 - 1)] = 0
-    roller_radius: Annotated[Spread, SpreadField(LENGTH)] | None = None
-    roller_youngs_modulus: Modulus = None
-    roller_poissons_ratio: Ratio = None
-    body_youngs_modulus: Modulus = None
-    body_poissons_ratio: Ratio = None
-    load: Annotated[Spread, SpreadField(PRESSURE, ("relative",))] | None = None
-    friction: Ratio = None
-    position: Annotated[Spread, SpreadField(LENGTH, ("absolute", "range"))] | None = None
-    noise: Length | None = None
-    correlation_length: Length | None = None
-    tip_radius: Annotated[Spread, SpreadField(LENGTH, ("range",))] | None = None
+    samples: Annotated[StrictInt, Field(ge=FEWEST, le=MOST)] = Field(
+        64, description="of each of two designs by Sobol's sequence; a power of two"
+    )
+    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of the samples")
+    roller_radius: LengthSpread | None = Field(None, description="radius of the roller")
+    roller_youngs_modulus: Modulus | None = Field(None, description="its Young's modulus")
+    roller_poissons_ratio: Ratio | None = Field(None, description="its Poisson's ratio")
+    body_youngs_modulus: Modulus | None = Field(None, description="Young's modulus of the body")
+    body_poissons_ratio: Ratio | None = Field(None, description="its Poisson's ratio")
+    load: Relative | None = Field(None, description="load")
+    friction: Ratio | None = Field(None, description="the scene's one coefficient")
+    position: Position | None = Field(None, description="of the roller on the trace")
+    noise: Length | None = Field(
+        None, description="standard deviation of what is added to the heights"
+    )
+    correlation_length: Length | None = Field(None, description="of the noise; white by default")
+    tip_radius: Range | None = Field(
+        None, description="of the stylus: crests sharper than the tip are rounded"
+    )
 
     @property
     def inputs(self) -> dict[str, Spread]:
@@ -135,28 +161,30 @@ class ScatterSection(SceneSection):
         if self.friction is not None and len(scene.load.friction) > 1:
             several = f"is given for {len(scene.load.friction)} coefficients"
             yield "scatter.friction", f"{several}; allowed with one"
-        limits: dict[str, tuple[float | None, FieldType]] = {
-            "load": (1.0, Number(DIMENSIONLESS, above=0.0)),
-            "tip_radius": (0.0, Number(LENGTH, above=0.0)),
-        }
+        nominals: dict[str, float | None] = {"load": 1.0, "tip_radius": 0.0}
         for name, (section, field) in FIELDS.items():
-            table = getattr(scene, section)
-            nominal = getattr(table, field)
-            nominal = nominal[0] if isinstance(nominal, tuple) else nominal
-            limits[name] = nominal, field_type(type(table), field)
-        for name, (nominal, field) in limits.items():
-            spread = getattr(self, name)
+            value = getattr(getattr(scene, section), field)
+            nominals[name] = value[0] if isinstance(value, tuple) else value
+        for name, nominal in nominals.items():
+            spread, own = getattr(self, name), f"scatter.{name}"
             if spread is not None and nominal is None:
-                yield (
-                    f"scatter.{name}",
-                    f"is given without {'.'.join(FIELDS[name])}; allowed beside it",
-                )
+                yield own, f"is given without {'.'.join(FIELDS[name])}; allowed beside it"
             for end in spread.ends(nominal) if None not in (spread, nominal) else ():
-                try:
-                    field.read(end)
-                except ValueError:
+                if limits := _limits(name, end, scene):
                     how = "" if spread.range else f" (normal, cut off at {CUT_OFF:g} deviations)"
-                    yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
+                    yield own, f"reaches {end:g}{how}; {limits}"
+
+
+def _limits(name: str, value: float, scene: SceneSection) -> str:
+    """What is allowed where an input may not have the value; empty where it may."""
+    if name not in FIELDS:
+        return "" if value > 0.0 else "allowed is above 0"
+    section, field = FIELDS[name]
+    try:
+        read_field(type(getattr(scene, section)), field, value)
+    except ValueError as error:
+        return str(error).partition("; ")[2]
+    return ""
 
 
 SECTION = ScatterSection

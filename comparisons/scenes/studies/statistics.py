@@ -1,23 +1,32 @@
 """The [statistics] section: theories of rough contact beside the solved one."""
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Literal
 
-from comparisons.common.units import LENGTH
-from comparisons.scenes.fields import Number, OneOf, SceneSection, Several, Truth, Whole
+from pydantic import Field, StrictBool, StrictInt
+
+from comparisons.scenes.fields import Length, SceneSection, Several
 
 METALS = ("ferrous", "nonferrous")
 
 
 class StatisticsSection(SceneSection):
-    """Random traces, cut-offs of the table of summits, and which thresholds of h/R hold."""
+    """Theories of rough contact beside the solved one. It needs `[profile]`."""
 
     STEP = "statistics of rough contact"
-    traces: Annotated[int, Whole(4, 256)] = 8
-    seed: Annotated[int, Whole(0, 2**32 - 1)] = 0
-    cutoffs: Annotated[tuple[float, ...], Several(Number(LENGTH, above=0.0))] | None = None
-    metal: Annotated[str, OneOf(METALS)] = METALS[0]
-    lubricated: Annotated[bool, Truth()] = False
+    traces: Annotated[StrictInt, Field(ge=4, le=256)] = Field(
+        8, description="random ones with the profile's spectrum that are solved"
+    )
+    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of these traces")
+    cutoffs: Annotated[tuple[Length, ...], Several()] | None = Field(
+        None, description="filters under which summits are counted; chosen by default"
+    )
+    metal: Literal[METALS] = Field(
+        METALS[0], description="of the body: h/R up to which an asperity is elastic"
+    )
+    lubricated: StrictBool = Field(
+        False, description="whether it is: h/R from which an asperity cuts"
+    )
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if scene.profile is None:

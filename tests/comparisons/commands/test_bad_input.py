@@ -70,10 +70,10 @@ VALUES = [
     ),
     ("body.poissons_ratio", "0.5", "is 0.5; allowed is a number without unit at least 0 and below"),
     ("load.friction", "1.6", "is 1.6; allowed is a number without unit at least 0 and at most 1.5"),
-    ("load.friction", "[]", "is an empty list; allowed is"),
+    ("load.friction", "[]", "is a list of 0 values, not of 1 to 1000; allowed is"),
     ("load.friction", "[0, -0.0]", "lists 0 twice"),
-    ("load.friction", "[" + "0.1," * 2000 + "]", "is a list of 2000 values, more than 1000; allow"),
-    ("profile.columns", "[[1, 2], 3]", "holds a list; allowed is one or two columns by name"),
+    ("load.friction", "[" + "0.1," * 2000 + "]", "is a list of 2000 values, not of 1 to 10"),
+    ("profile.columns", "[[1, 2], 3]", "holds a list of 2; allowed is the name of a column"),
     ("roller.radius", "inf", "is inf, which is not finite; allowed"),
     ("roller.radius", "1e-320", "is 1e-320, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
     ("load.per_length", '"3 kN"', 'is "3 kN", a force: a force per length is "3 kN/mm"; allowed'),
@@ -99,10 +99,10 @@ VALUES = [
     (
         "stress.points",
         "[200, 2]",
-        "holds 2; allowed is a list of two whole numbers [along x, along z], from 3 to 20000 each",
+        "holds 2; allowed is a whole number from 3 to 20000",
     ),
-    ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of two"),
-    ("stress.points", "[20_000, 20_000]", "asks for 400000000 points; allowed is a list"),
+    ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of 2, each a whole"),
+    ("stress.points", "[20_000, 20_000]", "asks for 400000000 points; allowed are 50000000 in all"),
 ]
 # changes, and how the line goes on after "scene.toml: "
 COMBINATIONS = [

@@ -37,24 +37,27 @@ SOLIDS = [
     (SMOOTH, {"body.law": "murnaghan"}, "body.murnaghan: is missing; allowed is a table"),
     (SMOOTH, {"roller.murnaghan": CONSTANTS}, "roller.murnaghan: is given for another law"),
     *(
-        (SMOOTH, {"body.law": "murnaghan", "body.murnaghan": wrong}, f"body.murnaghan: {complaint}")
+        (SMOOTH, {"body.law": "murnaghan", "body.murnaghan": wrong}, f"body.murnaghan.{complaint}")
         for wrong, complaint in (
-            ({"l": 1.0, "m": 1.0}, 'lacks "n"'),
-            ({**CONSTANTS, "k": 1.0}, 'holds "k"'),
-            ({**CONSTANTS, "n": "1 mm"}, 'is "1 mm"'),
+            ({"l": 1.0, "m": 1.0}, "n: is missing; allowed is a pressure"),
+            ({**CONSTANTS, "k": 1.0}, "k: is no known field; the nearest is body.murnaghan."),
+            ({**CONSTANTS, "n": "1 mm"}, 'n: is "1 mm", a length; allowed is a pressure'),
         )
     ),
     *(
-        (YIELDING, {"body.hardening": law}, f"body.hardening: {complaint}")
+        (YIELDING, {"body.hardening": law}, f"body.hardening{complaint}")
         for law, complaint in (
-            ({"table": [[0, 2e8], [0.1, 1e8]]}, "is no law: a hardening table must not soften"),
-            ({"table": [[0, 2e8], [0.1]]}, "has a row a list of its table"),
-            ({"table": []}, "has a table of 0 rows"),
-            ({"voce": {"saturated": 3e8}}, "has voce = a table, not saturated and rate"),
-            ({"ludwik": {"strength": 1e8, "exponent": 2}}, "is 2; allowed is a number"),
-            ({"vocce": {}}, 'holds "vocce" (did you mean "voce"'),
-            ({}, "is a table; allowed"),
-            (1e9, "is 1000000000.0; allowed is a table with one of"),
+            ({"table": [[0, 2e8], [0.1, 1e8]]}, ": is no law: a hardening table must not soften"),
+            ({"table": [[0, 2e8], [0.1]]}, ".table: holds a list of 1; allowed is a list of 2"),
+            ({"table": []}, ".table: is a list of 0; allowed is a list of 2 to 1000, each a"),
+            ({"voce": {"saturated": 3e8}}, ".voce.rate: is missing; allowed is a number"),
+            (
+                {"ludwik": {"strength": 1e8, "exponent": 2}},
+                ".ludwik.exponent: is 2; allowed is a number",
+            ),
+            ({"vocce": {}}, ".vocce: is no known field; the nearest is body.hardening.voce"),
+            ({}, ".table: is missing; allowed is at least one of table, voce"),
+            (1e9, ": is 1000000000.0; allowed is a table with one or several of"),
         )
     ),
     (
@@ -75,8 +78,8 @@ ROLLERS = [
     (RIGID, {"roller.support": "opposite"}, "roller.support: is given beside rigid = true"),
     (SMOOTH, {"roller.support": "oposite"}, 'roller.support: is "oposite" (did you mean "opposite'),
     (SMOOTH, {"roller.support": {"hub": "9 mm"}}, "roller.support: has a hub of 0.009 m; allowed"),
-    (SMOOTH, {"roller.support": {"shaft": "2 mm"}}, 'roller.support: holds "shaft"'),
-    (SMOOTH, {"roller.support": {"hub": 0.0}}, "roller.support: is 0.0; allowed is a length above"),
+    (SMOOTH, {"roller.support": {"shaft": "2 mm"}}, "roller.support.shaft: is no known field; the"),
+    (SMOOTH, {"roller.support": {"hub": 0.0}}, "roller.support.hub: is 0.0; allowed is a length"),
     (
         SMOOTH,
         {"body.thickness": 1e-3, "load.approach": 1e-6},
@@ -161,11 +164,17 @@ PROFILES = [
         for changes, complaint in (
             ({"row": 1, "column": 2}, "column: is given beside row; allowed is exactly one of"),
             ({"row": -1}, "row: is -1; allowed is a whole number from 0"),
-            ({"line": 3}, "line: holds 3; allowed is two points, such as"),
-            ({"line": [[0, 0, 0], [1, 1]]}, "line: holds a list of 3; allowed is two points"),
-            ({"line": [[0, "a"], [1, 1]]}, 'line: holds a place that is "a", which is not a'),
-            ({"line": [[0, 0], [-1, 1]]}, "line: holds a place that is -1; allowed is two"),
-            ({"line": [[1, 1], [1, 1]]}, "line: starts where it ends; allowed is two points"),
+            ({"line": 3}, "line: is 3; allowed is a list of 2, each a list of 2, each a length"),
+            (
+                {"line": [[0, 0, 0], [1, 1]]},
+                "line: holds a list of 3; allowed is a list of 2, each a",
+            ),
+            (
+                {"line": [[0, "a"], [1, 1]]},
+                'line: holds "a", which is not a number and a unit; all',
+            ),
+            ({"line": [[0, 0], [-1, 1]]}, "line: holds -1; allowed is a length at least 0"),
+            ({"line": [[1, 1], [1, 1]]}, "line: starts where it ends; allowed is a list of 2"),
             ({"cutoff": "0.8"}, 'cutoff: is "0.8", which has no unit; allowed is a length abo'),
             ({"cutoff": 0}, "cutoff: is 0; allowed is a length above 0"),
             ({"short_cutoff": "auto"}, 'short_cutoff: is "auto", which is not a number'),
@@ -187,7 +196,11 @@ PROFILES = [
     (TURNED, {"samples_per_feed": 16}, "profile: samples_per_feed must be at least 132"),
     (TURNED, {"noise_wavelength": "5 um"}, "profile: noise_wavelength is given without noise"),
     (TURNED, {"hurst": 0.8}, 'profile.hurst: does not belong to kind = "turned"; allowed there'),
-    (TURNED, {"length": None}, "profile.length: is missing; allowed is a length above 0"),
+    (
+        TURNED,
+        {"length": None},
+        'profile.length: is missing for kind = "turned"; allowed is a length',
+    ),
 ]
 OF_PROFILES = [
     (SMOOTH | {"profile": base}, {f"profile.{name}": value for name, value in changes.items()}, why)

@@ -1,0 +1,1 @@
+"""What the fields of a scene say of themselves: JSON Schema, messages, tables of the reference."""
