@@ -1,10 +1,14 @@
-"""The pages beside the README say what the program does: names, numbers, commands, links."""
+"""The pages beside the README say what the program does: names, numbers, commands, links; they are
+a site that opens from disk, in short plain sentences."""
 
+import importlib.util
 import re
 import shlex
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
-from scenes import PROJECT, page_rows
+from scenes import PROJECT, page_rows, python
 
 from comparisons.api import run
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
@@ -19,25 +23,87 @@ from comparisons.scenes.scene import Scene, sections_of
 from comparisons.scenes.schema.reference import with_fields
 from comparisons.studies import STUDIES
 
-PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
+DOCS = PROJECT / "comparisons" / "docs"
+PAGES = {str(path.relative_to(DOCS).with_suffix("")): path for path in sorted(DOCS.rglob("*.md"))}
+SITE = DOCS / "site" / "mkdocs.yml"
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
 
 
 NAMES = re.compile(r"`(\w+)`").findall
+# Words of the program's makers that no reader knows.
+PRIVATE = (
+    r"\brungs?\b|comes? along|beyond doubt|best door|for who |\boutcomes?\b|takes? dolfinx"
+    r"|the whole(?= (?:is|has|on|at|was)\b)|the whole's"
+)
 SECTIONS = sections_of(Scene)
 
 
-@pytest.mark.parametrize("name", PAGES)
-def test_links_lead_somewhere_and_the_readme_leads_here(name):
-    for path, text in ((PAGES[name], TEXT[name]), (PROJECT / "README.md", README)):
-        for link, heading in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", text):
-            page = path.parent / link if link else path
-            assert page.exists(), link
-            if heading:
-                pattern = rf"^## {heading.replace('-', ' ')}$"
-                assert re.search(pattern, page.read_text(), re.MULTILINE | re.IGNORECASE)
-    assert f"](comparisons/docs/{name}.md)" in README
+def anchor(heading: str) -> str:
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+@pytest.mark.parametrize("path", [PROJECT / "README.md", *PAGES.values()], ids=lambda p: p.stem)
+def test_links_lead_somewhere(path):
+    for link, heading in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", path.read_text(encoding="utf-8")):
+        page = path.parent / link if link else path
+        assert page.exists(), link
+        if heading:
+            heads = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+            assert heading in map(anchor, heads)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    """All pages, built strictly: every link and anchor leads somewhere, every page is listed."""
+    if importlib.util.find_spec("material") is None:
+        pytest.skip("mkdocs-material is not installed: pip install crosscheck[docs]")
+    out = tmp_path_factory.mktemp("site")
+    done = python("-m", "mkdocs", "build", "--strict", "-f", SITE, "-d", out)
+    assert done.returncode == 0, done.stderr
+    return out
+
+
+def test_the_site_opens_from_disk_without_a_network(site):
+    pages = sorted(site.rglob("*.html"))
+    assert {str(page.relative_to(site).with_suffix("")) for page in pages} == {*PAGES, "404"}
+    assert (site / "index.html").exists()
+    for page in pages:
+        loaded = re.findall(
+            r"<(?:script|img|link|iframe)[^>]+(?:src|href)=\"?([^\s\">]+)", page.read_text()
+        )
+        assert [address for address in loaded if address.startswith(("http", "//"))] == []
+        for address in loaded if page.stem != "404" else ():
+            assert (page.parent / address.partition("?")[0]).exists(), address
+
+
+def words(text: str) -> int:
+    return sum(any(map(str.isalnum, word)) for word in text.split())
+
+
+def test_pages_are_read_in_one_sitting():
+    evidence = [text for name, text in TEXT.items() if name.startswith("evidence/")]
+    assert words(TEXT["user_guide"]) <= 3000 and words(TEXT["limits"]) <= 900
+    assert sum(map(words, evidence)) <= 6000
+    bullets = re.findall(r"^- (.+)$", TEXT["limits"], re.MULTILINE)
+    assert len(bullets) > 20 and max(map(words, bullets)) <= 40
+
+
+def sentences(text: str) -> Iterator[str]:
+    """Those of a page without its tables, code and headings."""
+    text = re.sub(r"^```(?s:.*?)^```$|^(?:    |[|#<]).*$", "", text, flags=re.MULTILINE)
+    text = re.sub(r"\]\([^)]*\)", "]", text)
+    for paragraph in re.split(r"\n\s*\n|\n\s*(?:[-*]|\d+\.) ", text):
+        yield from re.split(r"[.!?][\"*)]*\s+", " ".join(paragraph.split()))
+
+
+@pytest.mark.parametrize("text", [README, *TEXT.values()], ids=["README", *TEXT])
+def test_sentences_are_short_and_in_the_fields_words(text):
+    """Tables, code and headings are left out."""
+    found = list(sentences(text))
+    assert [sentence for sentence in found if words(sentence) > 35] == []
+    private = re.compile(PRIVATE, re.IGNORECASE)
+    assert [sentence for sentence in found if private.search(sentence)] == []
 
 
 @pytest.mark.parametrize("name", PAGES)

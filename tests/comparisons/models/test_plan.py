@@ -92,7 +92,7 @@ def test_a_smooth_body_has_no_waves():
     [("flow-turned", (2.8, 10.7)), ("flow-flank", (1.8, 6.5)), ("ground-unrun", (35.8, 209.0))],
 )
 def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
-    """As measured (comparisons/docs/figures.md), in processor seconds of a busy machine."""
+    """As measured, in processor seconds of a busy machine."""
     if name == "ground-unrun":
         scene = Scene.read(name).changed("body.yield_stress", 2e9).changed("load.friction", 0.1)
         scene = scene.changed("finite_element.plastic", True)

@@ -12,12 +12,12 @@ from comparisons.models.posing import problem_of
 from comparisons.scenes.scene import Scene, with_tolerance
 
 CONTACTS = sorted((DATA / "contacts").glob("*.toml"))
-PAGE = PROJECT / "comparisons/docs/figures.md"
+PAGE = PROJECT / "comparisons/docs/evidence/contacts.md"
 
 
 def tabled() -> dict[str, str]:
     """Verdicts by the names of the files, as the page has them."""
-    text = PAGE.read_text(encoding="utf-8").partition("## Twelve contacts")[2].partition("\n## ")[0]
+    text = PAGE.read_text(encoding="utf-8")
     return dict(re.findall(r"^\| `([a-z-]+)` \| [^|]* \| (\w+) \|", text, re.MULTILINE))
 
 
