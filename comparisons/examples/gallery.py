@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from comparisons.api import RecordedRun
 
 HERE = Path(crosscheck.__file__).parent
-SCENES = sorted((HERE / "scenes" / "library").glob("*.toml"))
+SCENES = sorted((HERE / "scenes" / "library").glob("*.toml"), key=lambda path: path.stem)
 DOCS = HERE / "docs"
 HEAD = """# Gallery
 

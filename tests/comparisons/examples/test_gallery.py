@@ -22,7 +22,7 @@ def test_scenes_stand_there_as_their_files_have_them(scene):
 
 
 def test_every_scene_has_its_card_and_pictures_are_small():
-    assert list(cards(PAGE)) == scene_names() == [path.stem for path in sorted(PICTURES.iterdir())]
+    assert list(cards(PAGE)) == scene_names() == sorted(p.stem for p in PICTURES.iterdir())
     assert sum(path.stat().st_size for path in PICTURES.iterdir()) < 0.5e6
 
 
