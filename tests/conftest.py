@@ -27,8 +27,12 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 
 
 @pytest.hookimpl(optionalhook=True)
-def pytest_xdist_auto_num_workers() -> int:
-    """One a core, as long as memory lasts; 0, and no process but pytest's own, for a single one."""
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
+    """One a core, as long as memory lasts; 0, and no process but pytest's own, for a single one,
+    where files are named, and where tests are to have the terminal."""
+    named = any(Path(name.partition("::")[0]).is_file() for name in config.args)
+    if named or config.option.capture == "no" or config.option.trace:
+        return 0
     count = int(min(len(os.sched_getaffinity(0)), machine_memory() / WORKER_MEMORY))
     return count if count > 1 else 0
 
