@@ -148,16 +148,14 @@ def _without_main() -> Iterator[None]:
 @contextmanager
 def environment(wanted: dict[str, str]) -> Iterator[None]:
     """Environment variables of processes that start inside: numpy reads them when imported."""
-    before = {name: os.environ.get(name) for name in wanted}
+    before = {name: os.environ[name] for name in wanted if name in os.environ}
     os.environ.update(wanted)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        for name in wanted:
+            del os.environ[name]
+        os.environ.update(before)
 
 
 def end_with_parent() -> None:

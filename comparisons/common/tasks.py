@@ -107,12 +107,11 @@ class Tasks:
     shared: object = None  # that `Here` gives to the tasks
     # preparations for what follows the tasks, while this process waits
     here: Sequence[Preparation] = ()
-    # preparations of workers for their tasks
+    # preparations of workers for their tasks, which may begin before there are any
     there: Sequence[Preparation] = ()
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict[ProcessWorker, str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
-    _unkept: dict[str, object] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
     # with what their tasks share
     _workers: dict[ProcessWorker, object] = field(default_factory=dict)
@@ -125,6 +124,9 @@ class Tasks:
         self._left = list(self.here)
 
     def __enter__(self) -> "Tasks":
+        if self.there:
+            self._begin()
+            self._open(self.at_once)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -135,12 +137,6 @@ class Tasks:
         for worker in self._workers:
             worker.kill()
         self._workers, self._running = {}, {}
-
-    def prepare(self) -> None:
-        """Let workers begin that have something to prepare and are worth it by that alone."""
-        if self.there:
-            self._begin()
-            self._open(self.at_once)
 
     def add(
         self,
@@ -215,13 +211,11 @@ class Tasks:
         """Wait for the workers to say something; without any work on a task here."""
         self._begin()
         self._hand_out()
-        self._keep()
         if self._running:
             self._collect()
         else:
             task = self._tasks[key]
             self._answer(key, *_answered(task.work, self._here, *task.args))
-        self._keep()
 
     def _begin(self) -> None:
         """Let workers begin, where there are to be any and the tasks are worth them."""
@@ -319,12 +313,7 @@ class Tasks:
         self._answers[key] = good, answer
         self._done += self._tasks[key].seconds
         if good and is_new:
-            self._unkept[key] = answer
-
-    def _keep(self) -> None:
-        """Write what is new; when workers have their tasks, since nobody waits for the disk."""
-        for key in list(self._unkept):
-            self.kept.save(key, self._unkept.pop(key))
+            self.kept.save(key, answer)
 
     def _tell(self, stage: str) -> None:
         left = sum(task.seconds for task in self.left().values())

@@ -115,7 +115,6 @@ def solve_scene(
     surface = known.surface or surface_of(scene)
     try:
         with _tasks_of(scene, models) as tasks:
-            tasks.prepare()
             problem, plan = posed(scene, surface, models, known.levels, callback, tasks)
             scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
             scene_now = replace(scene_now, all_methods=known.all_methods)
