@@ -1,275 +1,42 @@
-"""Scenes in, results out, as plain functions: tables that print themselves, plots, arrays.
+"""The face: scenes in, results out, as plain functions; the command line and notebooks are thin
+skins over it.
 
-In: a `Scene`, or its name, path or tables. Out: what `comparisons` offers to notebooks and
-scripts; figures are those of the command line, in SI units."""
+In: a `Scene`, or its name, path or tables. Out: results that print themselves, each with `figures`
+as records, a `summary` of ten lines, the `exit_status` of its command, `write(folder)`, and `plot`
+where it has pictures. Numbers are in SI units."""
 
-import io
 import os
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
-from functools import partial
-from operator import itemgetter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from textwrap import wrap
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from comparisons.common.errors import InputError, nearest
-from comparisons.common.files import check_writable, write_whole
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.errors import InputError, check_finite_elements
+from comparisons.common.files import check_writable, holds_comparison
+from comparisons.common.progress import Lasting, ProgressCallback, no_progress
+from comparisons.common.tasks import Opens
 from comparisons.common.units import describe
-from comparisons.drawing.tables import in_its_unit
-from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, models_named
-from comparisons.judging import study
-from comparisons.output.arrays import RunArrays
-from comparisons.output.flat_csv import (
-    Row,
-    judged_rows,
-    right_within,
-    rows_of,
-    rows_tables,
-)
-from comparisons.output.page.plots import Plots
-from comparisons.output.result import Result, content_of, read_result, result_of
+from comparisons.figures.quantity import MODELS, models_named
+from comparisons.judging.study import Run
+from comparisons.output.flat_csv import FigureTable, tidy_rows
+from comparisons.output.plausibility import warnings_about, warnings_about_result
+from comparisons.output.result import read_result
+from comparisons.runs import run as runs
+from comparisons.runs.finished import FinishedRun, MethodCosts, RecordedRun
 from comparisons.scenes.scene import Scene, with_law, with_tolerance
+from comparisons.scenes.surface import surface_of
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from pandas import DataFrame
-    from rich.console import Console, RenderableType
+    from comparisons.campaigns.cases import Campaign
+    from comparisons.campaigns.decks.write import Deck
+    from comparisons.grid.map import Map
+    from comparisons.grid.table import Sweep
+    from comparisons.runs.rerun import Repetition
 
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
-
-SHOWN = 3  # figures of a run that is printed
-COLUMNS = 100  # of text; a notebook's cell is as wide
-PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
-
-
-class Printed(ABC):
-    """Prints as text and shows as HTML what `_table` returns for rich."""
-
-    @abstractmethod
-    def _table(self) -> "RenderableType": ...
-
-    def __repr__(self) -> str:
-        return "\n".join(line.rstrip() for line in self._console().export_text().splitlines())
-
-    def _repr_html_(self) -> str:
-        return self._console().export_html(inline_styles=True, code_format=PAGE)
-
-    def _console(self) -> "Console":
-        from rich.console import Console
-
-        console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
-        console.print(self._table(), crop=False)
-        return console
-
-
-class RunFigures(Printed, Figures):
-    """Every number of a run that is a result, with its uncertainty and verdict."""
-
-    rows: list[Row]  # the figures as records, one each (`comparisons.output.flat_csv`)
-
-    def frame(self) -> "DataFrame":
-        """`rows` as a table of pandas. Raises InputError where pandas is not installed."""
-        try:
-            from pandas import DataFrame
-        except ImportError:
-            raise InputError("frame: pandas is not installed; `rows` are records") from None
-        return DataFrame(self.rows)
-
-    def _table(self) -> "RenderableType":
-        return rows_tables(self.rows, itemgetter("study"), say=str)
-
-
-@dataclass(frozen=True, repr=False)
-class RecordedRun(Printed):
-    """A run as its files have it."""
-
-    said: Result
-    arrays: RunArrays
-    name: str  # its folder, or its scene's name
-
-    @property
-    def result(self) -> dict:
-        """As result.json has it, SI units."""
-        return content_of(self.said)
-
-    @property
-    def figures(self) -> RunFigures:
-        """Every number that is a result; `figures.of(study="contact")` are some of them."""
-        figures = RunFigures(self.said.figures)
-        figures.rows = rows_of(self.said, self.name)
-        return figures
-
-    def figure(self, quantity: str, source: str, study: str = "contact", **at: float) -> Figure:
-        """One of them, by the model or other source that it is of. Raises InputError, with the
-        nearest name, where the run has none.
-
-        study  that found it
-        at     of several friction coefficients: friction=0.1"""
-        figures = self.said.figures
-        wanted = {"study": study, "quantity": quantity, "source": _model(source)}
-        for field, name in wanted.items():
-            names = sorted({getattr(figure, field) for figure in figures})
-            figures = figures.of(**{field: name})
-            if not figures:
-                near, there = nearest(name, names), ", ".join(names)
-                raise InputError(f"{field}: is {name}; the nearest here is {near}, of {there}")
-        for figure in figures:
-            if at.items() <= figure.at.items():
-                return figure
-        known = ", ".join(_place(figure.at) for figure in figures)
-        raise InputError(f"{quantity}: is not known at {_place(at)}; allowed is {known}")
-
-    @property
-    def verdict(self) -> str:
-        """Of the half-plane here: holds, fails or inconclusive; not compared, not converged."""
-        return self.said.verdict
-
-    @property
-    def within(self) -> float | None:
-        """The least tolerance at which every judged figure holds, relative: the half-plane is right
-        within it. None where it is not known."""
-        return self.said.within
-
-    def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
-        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
-        return self.arrays.contact(self._known(model), self.said.deciding_friction)
-
-    def stress(self, model: str = "half-plane", friction: float | None = None) -> dict:
-        """Stresses of a model's finest level below the contact, as arrays.
-
-        friction  coefficient; the scene's first by default
-        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
-        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
-        stress across the plane is Poisson's ratio times sx + sz."""
-        frictions = self.said.scene["load"]["friction"]
-        wanted = frictions[0] if friction is None else friction
-        stresses = self.arrays.stress(self._known(model), wanted)
-        if stresses is None:
-            raise InputError(
-                "stress: this run has none there; allowed is a scene with [stress], at friction "
-                + " or ".join(f"{mu:g}" for mu in frictions)
-            )
-        return stresses
-
-    def _known(self, model: str) -> str:
-        if _model(model) not in self.arrays.models:
-            raise InputError(f"model: is {model}; allowed is {' or '.join(self.arrays.models)}")
-        return _model(model)
-
-    def _table(self) -> "RenderableType":
-        return self.said.shown()
-
-
-@dataclass(frozen=True, repr=False)
-class FinishedRun(RecordedRun):
-    """A run that has just been solved; `outcome` is everything that was computed."""
-
-    outcome: study.Run
-
-    @classmethod
-    def of(cls, outcome: study.Run) -> "FinishedRun":
-        name = str(outcome.directory or outcome.problem.scene.name)
-        return cls(result_of(outcome), RunArrays.of(outcome), name, outcome)
-
-    def __repr__(self) -> str:
-        """In ten lines: title, the verdict, the first figures and what to do next. A notebook
-        shows the tables of the command line."""
-        from comparisons.judging.verdict.headline import headline, verdicts
-
-        run, said = self.outcome, headline(self.outcome)
-        figures = run.model_errors or run.figures.of(study="contact")
-        rows = [_line(figure) for figure in figures if figure.quantity in QUANTITIES]
-        left = len(rows) - SHOWN
-        more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
-        first = said.within.sentence, *("  ".join(verdict) for verdict in verdicts(run, said))
-        lines = run.problem.scene.title, *first, *rows[:SHOWN], *more, f"Next:  {said.next}"
-        wrapped = [part for line in lines for part in wrap(line, COLUMNS)]
-        return "\n".join([*wrapped, *said.paste])
-
-    @property
-    def plot(self) -> Plots:
-        """What draws the run."""
-        return Plots(self.outcome)
-
-    def report(self, path: str | os.PathLike) -> Path:
-        """Write the report, one page that needs no network; returns its path. Raises InputError
-        where there is no folder for it."""
-        from comparisons.output.page.page import render
-
-        path = _path(path, "path")
-        if not path.parent.is_dir() or path.is_dir():
-            raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
-        write_whole(path, render(self.outcome))
-        return path
-
-    def _table(self) -> "RenderableType":
-        from comparisons.output.terminal import summary
-
-        return summary(self.outcome)
-
-
-@dataclass(frozen=True, repr=False)
-class FigureTable(Printed):
-    """Figures of several runs, as records (`comparisons.output.flat_csv`); prints the judged."""
-
-    rows: tuple[Row, ...]
-
-    def _table(self) -> "RenderableType":
-        return rows_tables(judged_rows(self.rows), partial(right_within, name="title"))
-
-
-@dataclass(frozen=True, repr=False)
-class Map(Printed):
-    """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
-
-    content: dict
-    folder: Path | None
-
-    def plot(self) -> "list[Axes]":
-        """The map."""
-        from comparisons.grid.map_picture import map_figure
-
-        return _drawn(map_figure, self.content)
-
-    def _table(self) -> "RenderableType":
-        from comparisons.grid.map import map_table
-
-        return map_table(self.content, self.folder)
-
-
-@dataclass(frozen=True, repr=False)
-class Sweep(Printed):
-    """Scenes at many values of their fields; `content` is that of sweep.json, in `folder`."""
-
-    content: dict
-    folder: Path | None
-
-    @property
-    def rows(self) -> list[Row]:
-        """The figures as records, each with the values of the swept fields."""
-        from comparisons.grid.sweep import rows_of_points
-
-        return rows_of_points(self.content)
-
-    def plot(self) -> "list[Axes]":
-        """Each figure over the first swept field."""
-        from comparisons.grid.sweep_picture import sweep_figure
-
-        return _drawn(sweep_figure, self.content)
-
-    def _table(self) -> "RenderableType":
-        from comparisons.grid.table import sweep_table
-
-        return sweep_table(self.content, self.folder)
 
 
 def run(
@@ -279,6 +46,8 @@ def run(
     tolerance: float | None = None,
     law: str | None = None,
     out: str | os.PathLike | None = None,
+    files: bool = True,
+    workers: str | None = None,
     progress: ProgressCallback = no_progress,
 ) -> FinishedRun:
     """Solve a scene, compare the models, judge: what `crosscheck run` does.
@@ -287,6 +56,9 @@ def run(
     tolerance  relative, of all that is judged, in place of the scene's own
     law        of elasticity, of every elastic body, in place of their own
     out        folder for the files of the run; None writes none
+    files      whether they are written now, or left to `write`: until then what is solved is kept
+               beside the folder, and a run that is stopped goes on from there
+    workers    a Dask scheduler's address: it solves the samples of [scatter]
     progress   gets each stage as it begins
     Raises SceneError for a wrong scene, SolverError where no solution is found.
 
@@ -305,34 +77,14 @@ def run(
     'holds'
     >>> [figure.verdict for figure in both.figures.of(study="comparison")]
     ['agree', 'agree', None]"""
-    from comparisons.runs.run import run as run_scene
+    from comparisons.common.executors import cluster
 
-    chosen = models_named(models, "models")
-    place = _writable(out)
-    asked = scene_of(scene)
-    if tolerance is not None:
-        asked = with_tolerance(asked, tolerance)
-    if law is not None:
-        asked = with_law(asked, law)
-    return FinishedRun.of(run_scene(asked, place, chosen, progress))
-
-
-def read(folder: str | os.PathLike) -> RecordedRun:
-    """A run from the folder that it has left, without solving. InputError where there is none."""
-    place = _path(folder, "folder")
-    result = read_result(place)
-    return RecordedRun(result, result.arrays, str(place))
-
-
-def compare(*runs: RecordedRun | Sequence[RecordedRun]) -> FigureTable:
-    """The figures of runs, or of lists of them, a row each."""
-    every = [
-        run for given in runs for run in (given if isinstance(given, list | tuple) else [given])
-    ]
-    if not every or not all(isinstance(run, RecordedRun) for run in every):
-        given = next((describe(run) for run in every if not isinstance(run, RecordedRun)), "no run")
-        raise InputError(f"compare: is given {given}; allowed are runs, at least one")
-    return FigureTable(tuple(row for run in every for row in run.figures.rows))
+    chosen, asked = models_named(models, "models"), scene_of(scene, tolerance, law)
+    with cluster(workers) if workers else nullcontext() as opens:
+        solved = FinishedRun.of(_solved(asked, chosen, out, progress, opens))
+    if files:
+        solved.write(progress=progress)
+    return solved
 
 
 def cost(
@@ -340,46 +92,100 @@ def cost(
     *,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
-) -> FinishedRun:
+) -> MethodCosts:
     """Error against run time of every method that applies: what `crosscheck cost` does, a run by
     all of them. It takes minutes. `out` keeps its files."""
-    from comparisons.runs.run import Known
-    from comparisons.runs.run import run as run_scene
+    models = MODELS if find_spec("dolfinx") else MODELS[:1]
+    solved = MethodCosts.of(_solved(scene_of(scene), models, out, progress, all_methods=True))
+    solved.write(progress=progress)
+    return solved
 
-    place = _writable(out)
-    known = Known(all_methods=True)
-    return FinishedRun.of(run_scene(scene_of(scene), place, MODELS, progress, known=known))
+
+def plan(
+    scene: AnyScene,
+    models: str | Sequence[str] = MODELS,
+    *,
+    tolerance: float | None = None,
+    law: str | None = None,
+) -> list[str]:
+    """Say what `run` would do, and how long it would take, in lines."""
+    asked, chosen = scene_of(scene, tolerance, law), models_named(models, "models")
+    return runs.planned(asked, surface_of(asked), chosen)
+
+
+def read(folder: str | os.PathLike) -> RecordedRun:
+    """A run from the folder that it has left, without solving. InputError where there is none."""
+    return RecordedRun(read_result(Path(folder)), str(folder))
+
+
+def rerun(
+    folder: str | os.PathLike,
+    *,
+    out: str | os.PathLike | None = None,
+    progress: ProgressCallback = no_progress,
+) -> "Repetition":
+    """Repeat a run from the folder that it has left: what `crosscheck rerun` does."""
+    from comparisons.runs.rerun import rerun as repeat
+
+    return repeat(Path(folder), None if out is None else Path(out), progress)
+
+
+def table(*folders: str | os.PathLike) -> FigureTable:
+    """The figures of all runs in or below folders, a row each."""
+    return FigureTable(tidy_rows([Path(folder) for folder in folders]))
+
+
+def compare(*runs: RecordedRun | Sequence[RecordedRun]) -> FigureTable:
+    """The figures of runs, or of lists of them, a row each."""
+    lists = (given if isinstance(given, list | tuple) else [given] for given in runs)
+    return FigureTable([row for runs in lists for run in runs for row in run.figures.rows], "title")
 
 
 def map(
     scene: str | os.PathLike,
-    points: str = "8x8",
+    points: str | None = None,
     *,
     x: str | None = None,
     y: str | None = None,
-    quantity: str = "peak_pressure",
+    quantity: str | None = None,
+    settings: Sequence[str] = (),
+    mark: str | None = None,
+    again: bool = False,
     workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
-) -> Map:
+) -> "Map":
     """The half-plane's model error over two dimensionless groups: what `crosscheck map` does.
 
-    scene    a name or a path
-    points   along x and y, "NxM"
-    x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
-    workers  processes, one a core by default, or a Dask scheduler's address
+    scene     a name or a path, or the name of a finished map, which is shown as it is unless
+              something else is asked of it, or `again`
+    points    along x and y, "NxM"; 8x8 by default
+    x, y      "GROUP" or "GROUP=FROM:TO"; by the scene by default
+    quantity  that is shown; the finished map's, or the peak pressure
+    settings  other values of fields of the scene, FIELD=VALUE each
+    mark      name or path of a scene that is marked on the map
+    workers   processes, one a core by default, or a Dask scheduler's address
     It takes minutes. `out` keeps each point, and goes on from there."""
-    from comparisons.grid.map import make_map, request_of
+    from comparisons.grid import map as grid
+    from comparisons.grid.mark import problem_named, unlike
 
-    scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
-    texts = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
-    for name, text in texts.items():
-        if not isinstance(text, str) and not (text is None and name in ("x", "y")):
-            raise InputError(f"{name}: is {describe(text)}; allowed is a text")
-    request = request_of(**texts)
-    with _folder(out, "map") as place:
-        content = make_map(request, place, workers, progress)
-    return Map(content, None if out is None else place)
+    name, marked = os.fspath(scene), None if mark is None else problem_named(mark)
+    is_finished = name in grid.finished_names()
+    as_it_is = not (again or settings) and (points, x, y, workers) == (None,) * 4
+    if quantity is None:
+        quantity = grid.finished_map(name)["quantity"] if is_finished else "peak_pressure"
+    with _folder(out, "map") as folder:
+        if is_finished and as_it_is:
+            content = grid.show_finished(name, quantity, marked, folder)
+        else:
+            check_finite_elements()
+            size = grid.SIZE if points is None else points
+            request = grid.request_of(name, size, x, y, quantity, settings)
+            content = grid.make_map(request, folder, workers, progress, marked)
+    if marked and (why := unlike(content, marked)):
+        why += "; the map's errors are those of its own scene"
+        progress(Lasting(f"--mark: {marked.scene.name} {why}"))
+    return grid.Map(content, None if out is None else folder)
 
 
 def sweep(
@@ -390,7 +196,7 @@ def sweep(
     workers: int | str | None = None,
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
-) -> Sweep:
+) -> "Sweep":
     """Several scenes, or one at many placements, loads, traces or values of any field: what
     `crosscheck sweep` does.
 
@@ -402,23 +208,76 @@ def sweep(
     >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
     >>> smooth = {"roller": {"radius": 8e-3, **steel}, "body": steel, "load": {"per_length": 1e6}}
     >>> loads = sweep(smooth, {"load": [1e6, 4e6]}, workers=1)
-    >>> contact = [row for row in loads.rows if row["study"] == "contact"]
+    >>> contact = [row for row in loads.figures.rows if row["study"] == "contact"]
     >>> peaks = [row["value"] for row in contact if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
     from comparisons.grid.sweep import make_sweep, sweep_request
+    from comparisons.grid.table import Sweep, warnings_of
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
     asked = [over] if isinstance(over, str) else list(over)
     scenes = [scene_of(one) for one in (scene if isinstance(scene, list | tuple) else [scene])]
     request = sweep_request(scenes, asked, models_named(models, "models"))
-    with _folder(out, "sweep") as place:
-        content = make_sweep(request, place, workers, progress)
-    return Sweep(content, None if out is None else place)
+    if "finite_element" in request.models:
+        check_finite_elements()
+    with _folder(out, "sweep") as folder:
+        content = make_sweep(request, folder, workers, progress)
+    _warn(warnings_of(content), progress)
+    return Sweep(content, None if out is None else folder)
 
 
-def scene_of(scene: AnyScene) -> Scene:
+def verify(
+    *,
+    benchmarks: bool = False,
+    out: str | os.PathLike | None = None,
+    junit: Path | None = None,
+    progress: ProgressCallback = no_progress,
+) -> "Campaign":
+    """Hold both models to exact solutions: what `crosscheck verify` does.
+
+    benchmarks  published ones instead
+    junit       file for JUnit XML"""
+    from comparisons.campaigns.benchmarks import Benchmarks, cases
+    from comparisons.campaigns.cases import carry_out
+    from comparisons.campaigns.verify.run import verify as verify_all
+
+    with _folder(out, "verify") as folder:
+        if benchmarks:
+            return carry_out("benchmarks", cases(), folder, junit, progress, Benchmarks)
+        return verify_all(folder, junit, progress)
+
+
+def stability(
+    *,
+    out: str | os.PathLike | None = None,
+    junit: Path | None = None,
+    progress: ProgressCallback = no_progress,
+) -> "Campaign":
+    """Solve stiff and extreme cases: what `crosscheck stability` does."""
+    from comparisons.campaigns.cases import carry_out
+    from comparisons.campaigns.robustness import all_cases
+
+    with _folder(out, "stability") as folder:
+        return carry_out("stability", all_cases(), folder, junit, progress)
+
+
+def deck(
+    scene: AnyScene, code: str, *, level: int = 1, out: str | os.PathLike | None = None
+) -> "Deck":
+    """A scene as input of another code, calculix or fenicsx: what `crosscheck deck` does.
+
+    level  of the scene's refinement, 1 the coarsest, whose elements the contact gets"""
+    from comparisons.campaigns.decks.write import make_deck
+
+    made = make_deck(scene_of(scene), code, level)
+    if out is not None:
+        made.write(Path(out))
+    return made
+
+
+def scene_of(scene: AnyScene, tolerance: float | None = None, law: str | None = None) -> Scene:
     """The scene, checked. Raises SceneError, one line, for anything that is wrong with it.
 
     >>> scene_of("sinusoid").load.hertz_peak_pressure
@@ -429,55 +288,46 @@ def scene_of(scene: AnyScene) -> Scene:
 is a length above 0: a number in m or "8.2 mm"
     """
     if isinstance(scene, Mapping):
-        return Scene.of(scene)
-    if isinstance(scene, str | os.PathLike):
-        return Scene.read(scene)
-    if not isinstance(scene, Scene):
+        scene = Scene.of(scene)
+    elif isinstance(scene, str | os.PathLike):
+        scene = Scene.read(scene)
+    elif not isinstance(scene, Scene):
         allowed = "allowed is a name, a path, tables or a Scene"
         raise InputError(f"scene: is {describe(scene)}; {allowed}")
-    return scene
+    if law is not None:
+        scene = with_law(scene, law)
+    return scene if tolerance is None else with_tolerance(scene, tolerance)
 
 
-def _writable(out: str | os.PathLike | None) -> Path | None:
-    place = _path(out, "out")
-    if place is not None:
-        check_writable(place)
-    return place
+def _solved(
+    scene: Scene,
+    models: tuple[str, ...],
+    out: str | os.PathLike | None,
+    progress: ProgressCallback,
+    opens: Opens | None = None,
+    all_methods: bool = False,
+) -> Run:
+    folder = None if out is None else Path(out)
+    if folder is not None:
+        check_writable(folder)
+        if len(models) == 1 and holds_comparison(folder):
+            said = "this run of one model replaces a comparison; --out keeps both"
+            progress(Lasting(f"{folder}: {said}"))
+    surface = surface_of(scene)
+    _warn(warnings_about(scene, surface), progress)  # before anybody waits for the solution
+    known = runs.Known(surface, all_methods=all_methods)
+    solved = runs.solve_scene(scene, folder, models, progress, opens, known)
+    _warn(warnings_about_result(solved), progress)
+    return solved
 
 
-def _drawn(draw: Callable, content: object) -> "list[Axes]":
-    from comparisons.drawing.style import collected_figures
-
-    with collected_figures():
-        return draw(content).axes
-
-
-def _line(figure: Figure) -> str:
-    """A model error, or a model's figure, with what is uncertain of it."""
-    said = f"{LABELS[figure.source]} {in_its_unit(figure, QUANTITIES)}"
-    if figure.against is not None:
-        said = f"{figure.words()}, against the {LABELS[figure.against]}"
-    return f"{QUANTITIES[figure.quantity].short:14}  {figure.friction:<6g}  {said}"
-
-
-def _place(at: Mapping[str, float]) -> str:
-    return " and ".join(f"{name} = {value:g}" for name, value in at.items()) or "no other place"
-
-
-def _model(name: str) -> str:
-    """Both ways of writing a model's name, as figures have it."""
-    return name.replace("-", "_")
+def _warn(warnings: Iterable[str], progress: ProgressCallback) -> None:
+    for warning in warnings:
+        progress(Lasting(f"plausibility warning: {warning}"))
 
 
 @contextmanager
 def _folder(out: str | os.PathLike | None, name: str) -> Iterator[Path]:
     """`out`, or a folder that goes at the block's end."""
     with TemporaryDirectory() as scratch:
-        yield _path(out, "out") or Path(scratch) / name
-
-
-def _path(path: object, name: str) -> Path | None:
-    """An argument that names a file or folder; None where it is."""
-    if path is not None and not isinstance(path, str | os.PathLike):
-        raise InputError(f"{name}: is {describe(path)}; allowed is a path")
-    return None if path is None else Path(path)
+        yield Path(scratch, name) if out is None else Path(out)

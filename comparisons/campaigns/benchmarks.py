@@ -35,12 +35,12 @@ def figures_of_benchmark(name: str) -> Iterator[Figure]:
     yield from solve_scene(Scene.read(name), None, MODELS).figures.of(study=NAME)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Benchmarks(Campaign):
     """All benchmarks, solved."""
 
     @cached_property
-    def tables(self) -> Mapping[str, list[tuple[str, ...]]]:
+    def published(self) -> Mapping[str, list[tuple[str, ...]]]:
         """Rows of HEAD by benchmark."""
         return {
             row.case.name: table(Scene.read(row.case.name).published, Figures(row.figures))
@@ -52,16 +52,16 @@ class Benchmarks(Campaign):
         columns = ("published_figure", *HEAD[1:-1], "note")
         rows = [
             {"benchmark": name} | dict(zip(columns, row, strict=True))
-            for name, rows in self.tables.items()
+            for name, rows in self.published.items()
             for row in rows
         ]
         return super().as_dict() | {"table": rows}
 
-    def summary(self) -> "RenderableType":
+    def tables(self) -> "RenderableType":
         from rich.console import Group
 
         shown, notes = plain_table(HEAD[0], numbers=HEAD[1:-1]), []
-        for name, rows in self.tables.items():
+        for name, rows in self.published.items():
             shown.add_row(f"[bold]{name}")
             for row in rows:
                 shown.add_row(f"  {row[0]}", *row[1:-1])

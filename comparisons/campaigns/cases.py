@@ -23,8 +23,9 @@ from comparisons.common.tasks import ProcessEnded, called, tasks_here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
+from comparisons.output.flat_csv import Records
 from comparisons.output.junit import JunitCase, junit_xml
-from comparisons.output.terminal import plain_table
+from comparisons.output.terminal import Printed, plain_table
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -224,8 +225,8 @@ def answers_of(out: Path, command: str, cases: Iterable[Trial]) -> Cache:
     return Cache(unfinished(out, command), key, kinds_of(Figure))
 
 
-@dataclass(frozen=True)
-class Campaign:
+@dataclass(frozen=True, repr=False)
+class Campaign(Printed):
     """All rows of a command, and the seconds that they took together."""
 
     command: str
@@ -261,8 +262,22 @@ class Campaign:
             "machine": machine(),
         }
 
-    def summary(self) -> "RenderableType":
-        """For the terminal: all rows and the verdict."""
+    @property
+    def figures(self) -> Records:
+        """The judged figures of every case as records."""
+        rows = [
+            {name: row.as_dict()[name] for name in ("group", "case", "model")} | figure
+            for row in self.rows
+            for figure in row.as_dict()["figures"]
+        ]
+        return Records(rows)
+
+    def write(self, folder: Path) -> None:
+        """Leave <command>.json in the folder. Raises InputError where that cannot be."""
+        publish(folder, {f"{self.command}.json": as_json(finite(self.as_dict()))})
+
+    def tables(self) -> "RenderableType":
+        """All rows and the verdict."""
         from rich.console import Group
 
         return Group(rows_table(self.rows), *self.verdict_lines())
@@ -302,7 +317,7 @@ def carry_out(
         check_finite_elements()
     start, kept = perf_counter(), answers_of(out, command, cases)
     campaign = concluded(command, rows_of(cases, callback, kept), perf_counter() - start)
-    publish(out, {f"{command}.json": as_json(finite(campaign.as_dict()))})
+    campaign.write(out)
     if junit is not None:
         write_whole(junit, junit_of(campaign))
     kept.discard()

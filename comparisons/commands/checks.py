@@ -1,18 +1,13 @@
 """`crosscheck verify` and `crosscheck stability`: what must hold before anything is believed."""
 
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from typer import Option
 
 from comparisons.commands.arguments import RESULTS, Junit, json_option, out_option
 from comparisons.commands.output import progress, show_either
 from comparisons.common.numbers import finite
-
-if TYPE_CHECKING:
-    from comparisons.campaigns.cases import Campaign
 
 
 def stability(
@@ -21,11 +16,12 @@ def stability(
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:
     """Solve stiff and extreme cases. Ends with 0 only if every one holds."""
-    from comparisons.campaigns.cases import carry_out
-    from comparisons.campaigns.robustness import all_cases
+    from comparisons import api
 
-    solve = partial(carry_out, "stability", all_cases())
-    return _solved("stability", solve, out, junit, as_json)
+    with progress() as callback:
+        campaign = api.stability(out=out or RESULTS / "stability", junit=junit, progress=callback)
+    show_either(as_json, lambda: finite(campaign.as_dict()), campaign.tables)
+    return campaign.exit_status
 
 
 def verify(
@@ -37,22 +33,10 @@ def verify(
     as_json: Annotated[bool, json_option("verify.json, or benchmarks.json")] = False,
 ) -> int:
     """Hold both models to exact solutions. Stated uncertainties are held to true errors."""
-    if benchmarks:
-        from comparisons.campaigns.benchmarks import Benchmarks, cases
-        from comparisons.campaigns.cases import carry_out
+    from comparisons import api
 
-        solve = partial(carry_out, "benchmarks", cases(), concluded=Benchmarks)
-        return _solved("benchmarks", solve, out, junit, as_json)
-    from comparisons.campaigns.verify.run import verify as verify_all
-
-    return _solved("verify", verify_all, out, junit, as_json)
-
-
-def _solved(
-    name: str, solve: Callable[..., "Campaign"], out: Path | None, junit: Path | None, as_json: bool
-) -> int:
-    """Carry out a campaign, show it and return its exit status."""
+    folder = out or RESULTS / ("benchmarks" if benchmarks else "verify")
     with progress() as callback:
-        campaign = solve(out or RESULTS / name, junit, callback)
-    show_either(as_json, finite(campaign.as_dict()), campaign.summary)
+        campaign = api.verify(benchmarks=benchmarks, out=folder, junit=junit, progress=callback)
+    show_either(as_json, lambda: finite(campaign.as_dict()), campaign.tables)
     return campaign.exit_status

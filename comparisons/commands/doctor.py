@@ -59,7 +59,7 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
             findings.append(finding)
             callback(Step(f"tried {finding.name}", number / len(programs)))
     works = all(finding.ok for finding in findings)
-    show_either(as_json, list(map(asdict, findings)), lambda: findings_table(findings))
+    show_either(as_json, lambda: list(map(asdict, findings)), lambda: findings_table(findings))
     if not (works or as_json):
         print(REMEDY)
     return ExitStatus.DONE if works else ExitStatus.SOMETHING_MISSING

@@ -7,7 +7,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, json_option, path_option
-from comparisons.commands.output import progress, show, show_either, show_json
+from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus, InputError, tell
 
 
@@ -27,7 +27,7 @@ def report(
         summary = RESULTS / "summary.html"
     with progress() as callback:
         shown = show_again(folders, summary, pdf, callback)
-    show_either(as_json, shown.as_dict(), shown.tables)
+    show_either(as_json, shown.as_dict, shown.tables)
     for why in dict.fromkeys(report.no_pdf for report in shown.reports if report.no_pdf):
         tell(why)
     return ExitStatus.DONE
@@ -39,12 +39,11 @@ def rerun(
     as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
 ) -> int:
     """Repeat a recorded run, from its own record. Shows every figure that moved."""
-    from comparisons.runs.rerun import rerun as repeat
-    from comparisons.runs.rerun import rerun_summary
+    from comparisons import api
 
     with progress() as callback:
-        repetition = repeat(folder, out, callback)
-    show_either(as_json, repetition.as_dict(), lambda: rerun_summary(repetition))
+        repetition = api.rerun(folder, out=out, progress=callback)
+    show_either(as_json, repetition.as_dict, repetition.tables)
     return repetition.exit_status
 
 
@@ -57,23 +56,21 @@ def table(
     as_json: Annotated[bool, Option("--json", help="Print every figure as JSON.")] = False,
 ) -> int:
     """Put the figures of many runs into one table. Shows what is judged."""
-    from comparisons.common.files import write_whole
-    from comparisons.output import flat_csv as flat
+    from comparisons import api
+    from comparisons.output.flat_csv import as_csv, check_place
 
     if raw and as_json:
         raise InputError("table: allowed is one of --csv, --json")
     if out is not None:
-        flat.check_place(out)
-    rows = flat.tidy_rows(folders)
+        check_place(out)
+    found = api.table(*folders)
     if out is not None:
-        write_whole(out, flat.as_csv(rows))
-    if as_json:
-        show_json(rows)
-    elif raw:
-        print(flat.as_csv(rows), end="")
-    elif out is None:
-        show(flat.rows_tables(flat.judged_rows(rows), flat.right_within))
+        found.write(out)
+    if raw:
+        print(as_csv(found.rows), end="")
+    elif as_json or out is None:
+        show_either(as_json, lambda: found.rows, found.tables)
     else:
-        runs = len({row["run"] for row in rows})
-        print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")
-    return ExitStatus.DONE
+        runs = len({row["run"] for row in found.rows})
+        print(f"{len(found.rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")
+    return found.exit_status

@@ -28,8 +28,11 @@ def materials(
     listed = [solid_named(name)] if name is not None else list(solids().values())
     if None in listed:
         raise InputError(f"{name}: is no known solid; {names_for(name)}")
-    entries = [entry_of(solid) for solid in listed]
-    show_either(as_json, entries, lambda: solids_table(listed) if name is None else page(listed[0]))
+    show_either(
+        as_json,
+        lambda: [entry_of(solid) for solid in listed],
+        lambda: solids_table(listed) if name is None else page(listed[0]),
+    )
     return ExitStatus.DONE
 
 

@@ -5,7 +5,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
 
@@ -44,9 +44,7 @@ def progress() -> Iterator[ProgressCallback]:
 
         def callback(stage: str) -> None:
             if isinstance(stage, Early | Lasting):
-                from comparisons.output.terminal import PLAIN
-
-                line = stage.translate(PLAIN)
+                line = plain(stage)
                 shown.console.print(line, markup=False, highlight=False, soft_wrap=True)
                 return
             if isinstance(stage, Step):
@@ -54,6 +52,13 @@ def progress() -> Iterator[ProgressCallback]:
             shown.update(task, description=str(stage), refresh=True)
 
         yield callback
+
+
+def plain(line: str) -> str:
+    """A line in characters that any terminal shows."""
+    from comparisons.output.terminal import PLAIN
+
+    return line.translate(PLAIN)
 
 
 def _lines() -> ProgressCallback:
@@ -64,7 +69,7 @@ def _lines() -> ProgressCallback:
     def callback(stage: str) -> None:
         nonlocal last
         if isinstance(stage, Lasting):
-            tell(stage)
+            tell(plain(stage))
         elif (now := monotonic()) - last >= SILENCE:
             last = now
             tell(f"after {now - began:.0f} s: {stage}")
@@ -88,20 +93,12 @@ def show(renderable: object) -> None:
     print("\n".join(line.rstrip() for line in printed.get().splitlines()))
 
 
-def show_either(as_json: bool, content: object, table: Callable[[], object]) -> None:
-    """Print the content as JSON, or the table that `table` makes."""
+def show_either(as_json: bool, content: Callable[[], object], tables: Callable[[], object]) -> None:
+    """Print as JSON what `content` makes, or else what `tables` makes."""
     if as_json:
-        show_json(content)
+        show_json(content())
     else:
-        show(table())
-
-
-def say_warnings(warnings: Iterable[str]) -> None:
-    """Print plausibility warnings to standard error, a line each."""
-    for warning in warnings:
-        from comparisons.output.terminal import PLAIN
-
-        tell(f"plausibility warning: {warning.translate(PLAIN)}")
+        show(tables())
 
 
 def show_json(content: object) -> None:

@@ -17,7 +17,7 @@ from comparisons.commands.arguments import (
     path_option,
     scene_with,
 )
-from comparisons.commands.output import show, show_json
+from comparisons.commands.output import show, show_either, show_json
 from comparisons.common.errors import ExitStatus, InputError
 
 if TYPE_CHECKING:
@@ -167,15 +167,12 @@ def deck(
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:
     """Write a scene as input of another code. A page says how to bring its answer back."""
-    from comparisons.campaigns.decks.write import FILES, MM, write_deck
+    from comparisons import api
 
     asked = scene_with(scene, settings)
     folder = out or RESULTS / f"{asked.name}-{code}"
-    written = write_deck(asked, code, folder, level)
-    if as_json:
-        files = sorted(name for name in FILES if (folder / name).exists())
-        where = {"folder": str(folder), "code": code, "nodes": written.nodes, "files": files}
-        show_json(where | {"edge": written.edge / MM})  # [m]
-    else:
-        print(f"{written.nodes} nodes; {folder / 'README.md'} says how to solve it")
-    return ExitStatus.DONE
+    made = api.deck(asked, code, level=level, out=folder)
+    show_either(as_json, lambda: {"folder": str(folder), **made.as_dict()}, made.tables)
+    if not as_json:
+        print(f"written: {folder / 'README.md'} and what it names")
+    return made.exit_status

@@ -1,6 +1,5 @@
 """Studies of a scene, each with files of its own: `crosscheck cost`, `map` and `sweep`."""
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -19,9 +18,7 @@ from comparisons.commands.arguments import (
     out_option,
     scene_with,
 )
-from comparisons.commands.output import progress, say_warnings, show_either
-from comparisons.common.errors import ExitStatus, tell
-from comparisons.figures.quantity import MODELS
+from comparisons.commands.output import progress, show_either
 
 Axis = Annotated[
     str | None,
@@ -43,21 +40,16 @@ def cost(
 ) -> int:
     """Show error against time of every method: a run that solves the scene by all of them. Names
     the cheapest for each tolerance."""
-    from comparisons.common.files import check_writable
-    from comparisons.output.result import content_of, result_of
-    from comparisons.output.terminal import cost_summary
-    from comparisons.runs.run import Known, run
+    from comparisons import api
 
     asked = scene_with(scene, settings)
-    directory = out or RESULTS / f"{asked.name}-cost"
-    check_writable(directory)
-    models = MODELS if find_spec("dolfinx") else MODELS[:1]
+    folder = out or RESULTS / f"{asked.name}-cost"
     with progress() as callback:
-        solved = run(asked, directory, models, callback, known=Known(all_methods=True))
-    show_either(as_json, content_of(result_of(solved)), lambda: cost_summary(solved))
+        solved = api.cost(asked, out=folder, progress=callback)
+    show_either(as_json, lambda: solved.result, solved.tables)
     if not as_json:
-        print(f"written: {directory / 'report.html'}, result.json and the fields beside it")
-    return ExitStatus.DONE if solved.converged else ExitStatus.NOT_CONVERGED
+        print(f"written: {folder / 'report.html'}, result.json and the fields beside it")
+    return solved.exit_status
 
 
 def map_of(
@@ -85,36 +77,18 @@ def map_of(
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""
-    from comparisons.grid.map import (
-        SIZE,
-        finished_map,
-        finished_names,
-        make_map,
-        map_table,
-        request_of,
-        show_finished,
-    )
-    from comparisons.grid.mark import problem_named, unlike
-    from comparisons.grid.points import exit_status
+    from comparisons import api
+    from comparisons.scenes.files import name_of
 
-    marked = None if mark is None else problem_named(mark)
-    solves = again or any(option is not None for option in (points, x, y, workers, settings))
-    finished = scene in finished_names()
-    if quantity is None:
-        quantity = finished_map(scene)["quantity"] if finished else "peak_pressure"
-    if finished and not solves:
-        directory = out or RESULTS / scene
-        content = show_finished(scene, quantity, marked, directory)
-    else:
-        size = SIZE if points is None else points
-        request = request_of(scene, size, x, y, quantity, settings or ())
-        directory = out or RESULTS / request.scene.name
-        with progress() as callback:
-            content = make_map(request, directory, workers, callback, marked)
-    if marked and (why := unlike(content, marked)):
-        tell(f"--mark: {marked.scene.name} {why}; the map's errors are those of its own scene")
-    show_either(as_json, content, lambda: map_table(content, directory))
-    return exit_status(content["points"])
+    folder = out or RESULTS / name_of(Path(scene))
+    shown = {"quantity": quantity, "mark": mark, "out": folder}
+    with progress() as callback:
+        made = api.map(
+            scene, points, x=x, y=y, settings=settings or (), again=again, workers=workers,
+            progress=callback, **shown
+        )  # fmt: skip
+    show_either(as_json, lambda: made.content, made.tables)
+    return made.exit_status
 
 
 def sweep(
@@ -136,17 +110,12 @@ def sweep(
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
     """Solve several scenes, or one at many places, loads, traces or other values."""
-    from comparisons.figures.quantity import models_named
-    from comparisons.grid.points import exit_status
-    from comparisons.grid.sweep import make_sweep, sweep_request
-    from comparisons.grid.table import sweep_table, warnings_of
+    from comparisons import api
+    from comparisons.grid.sweep import joined_name
 
-    chosen = models_named(models, "--models")
     asked = [scene_with(scene, settings) for scene in scenes]
-    request = sweep_request(asked, over or (), chosen)
-    directory = out or RESULTS / f"sweep-{request.name}"
+    folder = out or RESULTS / f"sweep-{joined_name(asked)}"
     with progress() as callback:
-        content = make_sweep(request, directory, workers, callback)
-    say_warnings(warnings_of(content))
-    show_either(as_json, content, lambda: sweep_table(content, directory))
-    return exit_status(content["points"])
+        made = api.sweep(asked, over or (), models, workers=workers, out=folder, progress=callback)
+    show_either(as_json, lambda: made.content, made.tables)
+    return made.exit_status

@@ -13,12 +13,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import InputError
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
-from comparisons.drawing.style import svgs
+from comparisons.drawing.style import collected_figures, svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.content import (
     BELOW,
@@ -37,12 +37,23 @@ from comparisons.grid.groups import (
 )
 from comparisons.grid.map_point import TOLERANCES, solve_point
 from comparisons.grid.mark import mark_of
-from comparisons.grid.points import FAILED, SOLVED, Point, failures, points_of, solved_in
+from comparisons.grid.points import (
+    FAILED,
+    SOLVED,
+    Point,
+    exit_status,
+    failures,
+    points_of,
+    solved_in,
+)
 from comparisons.models.problem import Problem
+from comparisons.output.flat_csv import Records
+from comparisons.output.terminal import Printed
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene, with_settings
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.text import Text
 
     from comparisons.grid.map_picture import Mark
@@ -224,3 +235,42 @@ def map_table(content: dict, out: Path | None) -> "Text":
         *([] if out is None else [f"map: {out / MAP}, {out / PICTURE}"]),
     ]
     return Text("\n".join(lines))
+
+
+@dataclass(frozen=True, repr=False)
+class Map(Printed):
+    """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
+
+    content: dict
+    folder: Path | None
+
+    @property
+    def figures(self) -> Records:
+        """The model error at each point, in the quantity that the map shows, as records."""
+        axes, quantity = {n: self.content[n]["group"] for n in ("x", "y")}, self.content["quantity"]
+        return Records(
+            [
+                {group: point[name] for name, group in axes.items()}
+                | {"status": point["status"], "quantity": quantity}
+                | point.get("quantities", {}).get(quantity, {})
+                for point in self.content["points"]
+            ]
+        )
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        return exit_status(self.content["points"])
+
+    def plot(self) -> "list[Axes]":
+        """The map."""
+        from comparisons.grid.map_picture import map_figure
+
+        with collected_figures():
+            return map_figure(self.content).axes
+
+    def write(self, folder: str | os.PathLike) -> None:
+        """Write map.json and the picture into a folder."""
+        publish(Path(folder), _files(self.content, None), FILES)
+
+    def tables(self) -> "Text":
+        return map_table(self.content, self.folder)

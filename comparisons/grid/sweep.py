@@ -79,13 +79,13 @@ class SweepRequest:
         return f"crosscheck sweep {scenes} {shlex.join(options)}".rstrip()
 
     @property
-    def name(self) -> str:
-        """Of its scene, or of the first and the last."""
-        return "-to-".join(dict.fromkeys(s.name for s in (self.scenes[0], self.scenes[-1])))
-
-    @property
     def title(self) -> str:
         return self.scenes[0].title if len(self.scenes) == 1 else f"{len(self.scenes)} scenes"
+
+
+def joined_name(scenes: Sequence[Scene]) -> str:
+    """That of a scene, or of the first and the last."""
+    return "-to-".join(dict.fromkeys(scene.name for scene in (scenes[0], scenes[-1])))
 
 
 def sweep_request(
@@ -219,9 +219,14 @@ def make_sweep(
     whys = failures(content["points"])
     if whys.total() == len(content["points"]):
         raise InputError(next(iter(whys)))
+    write_sweep(content, out)
+    return content
+
+
+def write_sweep(content: dict, out: Path) -> None:
+    """Write sweep.json, the table of every figure and the pictures into a folder."""
     files = {TABLE: sweep_csv(content), SWEEP: as_json(content)}
     publish(out, files | drawn(content), FILES)
-    return content
 
 
 def why_not(point: Point) -> str | None:
@@ -269,7 +274,7 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
     return {
         "schema": SCHEMA,
         "command": request.command,
-        "scene": {"name": request.name, "title": request.title},
+        "scene": {"name": joined_name(request.scenes), "title": request.title},
         "models": list(request.models),
         "over": [{"field": name, "values": list(values)} for name, values in fields],
         "points": points,

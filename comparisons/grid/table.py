@@ -2,23 +2,36 @@
 
 In: the content of sweep.json. Out: tables for the terminal, and lines."""
 
+import os
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from comparisons.common.errors import ExitStatus
 from comparisons.common.numbers import percent, percent_as_written, rounded_up, with_unit
+from comparisons.drawing.style import collected_figures
 from comparisons.figures.quantity import QUANTITIES, error_text
-from comparisons.grid.points import FAILED, failures
-from comparisons.grid.sweep import SWEEP, TABLE
-from comparisons.grid.sweep_picture import DRAWN, PICTURE, SAMPLES, ZONES, Axis, has_zones
+from comparisons.grid.points import FAILED, exit_status, failures
+from comparisons.grid.sweep import SWEEP, TABLE, rows_of_points, write_sweep
+from comparisons.grid.sweep_picture import (
+    DRAWN,
+    PICTURE,
+    SAMPLES,
+    ZONES,
+    Axis,
+    has_zones,
+    sweep_figure,
+)
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.output.flat_csv import Row
-from comparisons.output.terminal import PLAIN, plain_table, plain_text
+from comparisons.output.flat_csv import Records, Row
+from comparisons.output.terminal import PLAIN, Printed, plain_table, plain_text
 from comparisons.studies import quantity_of
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Group
     from rich.table import Table
 
@@ -26,6 +39,35 @@ MOST_SHOWN = 100  # points of the table; all are in the files
 NOT_COMPARED = "not compared"  # verdict of a run of one model
 
 Cell = Callable[[dict], str]  # of a column, by point
+
+
+@dataclass(frozen=True, repr=False)
+class Sweep(Printed):
+    """Scenes at many values of their fields; `content` is that of sweep.json, in `folder`."""
+
+    content: dict
+    folder: Path | None
+
+    @property
+    def figures(self) -> Records:
+        """Those of every point, each with the values of the swept fields, as records."""
+        return Records(rows_of_points(self.content))
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        return exit_status(self.content["points"])
+
+    def plot(self) -> "list[Axes]":
+        """Each figure over the first swept field."""
+        with collected_figures():
+            return sweep_figure(self.content).axes
+
+    def write(self, folder: str | os.PathLike) -> None:
+        """Write sweep.json, the table and the pictures into a folder."""
+        write_sweep(self.content, Path(folder))
+
+    def tables(self) -> "Group":
+        return sweep_table(self.content, self.folder)
 
 
 def sweep_table(content: dict, out: Path | None) -> "Group":

@@ -10,12 +10,14 @@ In: the result.json of runs. Out: records, CSV, or a table for people. Columns:
 
 What is unknown is empty in a CSV."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, one_line, tell
-from comparisons.common.files import check_file, csv_text
+from comparisons.common.files import check_file, csv_text, write_whole
 from comparisons.common.numbers import (
     finite,
     percent,
@@ -29,11 +31,12 @@ from comparisons.figures.quantity import LABELS
 from comparisons.judging import contact
 from comparisons.judging.study import LADDER
 from comparisons.output.result import FILE, Result, read_result
-from comparisons.output.terminal import plain_table, plain_text
+from comparisons.output.terminal import Printed, plain_table, plain_text
 from comparisons.studies import meaning
 
 if TYPE_CHECKING:
-    from rich.console import Group
+    from pandas import DataFrame
+    from rich.console import Group, RenderableType
 
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 COLUMNS = (
@@ -44,6 +47,43 @@ COLUMNS = (
 NAMES = "quantity", "source", "against"  # of a figure, as in result.json
 
 Row = dict[str, str | float | None]
+
+
+@dataclass(frozen=True, repr=False)
+class Records(Printed):
+    """Figures as records, one each."""
+
+    rows: Sequence[Row]
+
+    def frame(self) -> "DataFrame":
+        """The records as a table of pandas. Raises InputError where pandas is not installed."""
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise InputError("frame: pandas is not installed; `rows` are records") from None
+        return DataFrame(list(self.rows))
+
+    def tables(self) -> "RenderableType":
+        """All columns."""
+        cells = [
+            ["" if value is None else str(value) for value in row.values()] for row in self.rows
+        ]
+        return plain_table(*next(iter(self.rows), ()), rows=cells)
+
+
+@dataclass(frozen=True, repr=False)
+class FigureTable(Records):
+    """Figures of runs, with all COLUMNS; it prints what is judged, by run."""
+
+    rows: Sequence[Row]
+    title: str = "run"  # column that a run is called by
+
+    def tables(self) -> "RenderableType":
+        return rows_tables(judged_rows(self.rows), partial(right_within, name=self.title))
+
+    def write(self, path: Path) -> None:
+        """Write every figure to a file FILE.csv."""
+        write_whole(path, as_csv(self.rows))
 
 
 def tidy_rows(folders: Iterable[Path]) -> list[Row]:

@@ -52,6 +52,12 @@ def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
+def junit_of_run(run: Run) -> str:
+    """The verdicts of a run, in the seconds that its models took."""
+    seconds = sum(sum(solved.seconds.values()) for solved in run.runs.values())
+    return junit_xml(run.problem.scene.name, run_cases_of(run), seconds)
+
+
 def run_cases_of(run: Run) -> list[JunitCase]:
     """That the solvers converged, and each judged figure. One that differs or fails is a failure;
     an inconclusive one is skipped, with the reason; all are errors where a solver did not

@@ -1,9 +1,11 @@
-"""The short table of a run for the terminal: figures, verdict, what to do next, time."""
+"""Results as text: a run's figures, verdict, what to do next, time, in 80 columns."""
 
+import io
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import one_line
+from comparisons.common.errors import ExitStatus, one_line
 from comparisons.common.numbers import percent, with_unit
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import COMPARED, LABELS, error_text
@@ -21,7 +23,7 @@ from comparisons.studies import STUDIES
 from comparisons.studies.answers.show import answer_facts, answer_table, answers_of
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from rich.console import Console, RenderableType
     from rich.table import Table
     from rich.text import Text
 
@@ -36,6 +38,40 @@ HEADS = {"friction": "mu", "half-plane": "half-\nplane", "mostly by, %": "mostly
 HEADS |= {"layered half-plane": "layered\nhalf-\nplane"}
 HEADS |= {"difference": "differ.\n%", "uncertainty": "uncert.\n%", "tolerance": "tol.\n%"}
 SHORT = {name: quantity.short.translate(PLAIN) for name, quantity in COMPARED.items()}
+COLUMNS = 100  # of text; a notebook's cell is as wide
+SUMMARY = 10  # lines
+PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
+
+
+class Printed(ABC):
+    """A result that prints itself as text, and as HTML in a notebook."""
+
+    exit_status = ExitStatus.DONE  # that its command ends with
+
+    @abstractmethod
+    def tables(self) -> "RenderableType":
+        """Everything that its command prints."""
+
+    @property
+    def summary(self) -> str:
+        """The last ten lines of these: what they come to."""
+        return "\n".join(self._text().splitlines()[-SUMMARY:])
+
+    def __repr__(self) -> str:
+        return self._text()
+
+    def _repr_html_(self) -> str:
+        return self._console().export_html(inline_styles=True, code_format=PAGE)
+
+    def _text(self) -> str:
+        return "\n".join(line.rstrip() for line in self._console().export_text().splitlines())
+
+    def _console(self) -> "Console":
+        from rich.console import Console
+
+        console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
+        console.print(self.tables(), crop=False)
+        return console
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":

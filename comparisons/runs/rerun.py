@@ -17,8 +17,9 @@ from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of,
 from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
 from comparisons.models.problem import MOST_LEVELS, Levels
 from comparisons.output.arrays import FILE as ARRAYS
+from comparisons.output.flat_csv import Records
 from comparisons.output.result import BUILT_OTHERWISE, FILE, Result, read_result, result_of
-from comparisons.output.terminal import STYLES, plain_table
+from comparisons.output.terminal import STYLES, Printed, plain_table
 from comparisons.runs.run import Known, run
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
@@ -32,8 +33,8 @@ ADDED = ("name", "profile_info")  # to the tables of a scene in result.json
 DIGITS = 9  # of a figure: enough to see what moved by more than rounding
 
 
-@dataclass(frozen=True)
-class Repetition:
+@dataclass(frozen=True, repr=False)
+class Repetition(Printed):
     """A repeated run."""
 
     result: Result  # as recorded
@@ -51,6 +52,11 @@ class Repetition:
     def bits(self) -> bool:
         """Whether every recorded hash came out again: pressures equal to the last bit."""
         return self.outcome.record["hashes"] == self.result.record["hashes"]
+
+    @property
+    def figures(self) -> Records:
+        """Those that moved, as records."""
+        return Records([asdict(moved) for moved in self.movement.moved])
 
     @property
     def exit_status(self) -> ExitStatus:
@@ -71,6 +77,17 @@ class Repetition:
             "other": {name: list(pair) for name, pair in self.other.items()},
             "bits": self.bits,
         }
+
+    def tables(self) -> "RenderableType":
+        """What moved, and what the repetition had that the record had not."""
+        from rich.console import Group
+        from rich.text import Text
+
+        moved = self.movement.moved
+        title = Text(one_line(self.outcome.problem.scene.title), style="bold")
+        table = [_table(moved), ""] if moved else []
+        style = STYLES["agree" if self.exit_status == 0 else "differ"]
+        return Group(title, "", *table, Text(_verdict(self), style=style), *map(Text, _lines(self)))
 
 
 def rerun(
@@ -153,19 +170,6 @@ def _numbers(table: object, path: str) -> Iterator[tuple[str, float | bool]]:
             yield from _numbers(item, f"{path}[{number}]")
     elif isinstance(table, int | float):
         yield path, table
-
-
-def rerun_summary(repetition: Repetition) -> "RenderableType":
-    """What moved, and what the repetition had that the record had not."""
-    from rich.console import Group
-    from rich.text import Text
-
-    moved = repetition.movement.moved
-    title = Text(one_line(repetition.outcome.problem.scene.title), style="bold")
-    table = [_table(moved), ""] if moved else []
-    style = STYLES["agree" if repetition.exit_status == 0 else "differ"]
-    verdict = Text(_verdict(repetition), style=style)
-    return Group(title, "", *table, verdict, *map(Text, _lines(repetition)))
 
 
 def _table(moved: tuple[Moved, ...]) -> "Table":

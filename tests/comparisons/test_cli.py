@@ -29,41 +29,38 @@ HEAVY = (
 )
 
 
-class Run:
-    """Stands for `runs.run.solve_scene`: remembers its call, then returns or raises `result`."""
+class Solver:
+    """Stands for `runs.run.solve_scene`: remembers its call, then returns or raises `raises`."""
 
     def __init__(self) -> None:
         self.calls = []
         self.status = ExitStatus.DONE
         self.raises = None
 
-    def run(self, scene, out, models, progress, *further):
+    def solve(self, scene, out, models, progress, *further):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
         progress(Early("half-plane: 3 µm"))
         if self.raises:
             raise self.raises
+
+    def finished(self, outcome):
         return types.SimpleNamespace(
             result={"schema": 1, "name": "µ"},
+            tables=lambda details: "peak pressure agree",
+            write=lambda progress, junit: True,
             exit_status=self.status,
-            directory=out,
         )
 
 
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
-    run = Run()
-    monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: run.run(*asked))
-    monkeypatch.setattr("comparisons.runs.run.finish", lambda *_: True)
-    table = types.SimpleNamespace(
-        summary=lambda outcome, details: "peak pressure agree", PLAIN={ord("µ"): "u"}
-    )
-    monkeypatch.setitem(sys.modules, "comparisons.output.terminal", table)
-    monkeypatch.setattr("comparisons.output.result.result_of", lambda run: run.result)
-    monkeypatch.setattr("comparisons.output.result.content_of", lambda result: result)
-    monkeypatch.setattr("comparisons.output.plausibility.warnings_about_result", lambda outcome: [])
+    solver = Solver()
+    monkeypatch.setattr("comparisons.runs.run.solve_scene", lambda *asked: solver.solve(*asked))
+    monkeypatch.setattr("comparisons.api.FinishedRun.of", lambda outcome: solver.finished(outcome))
+    monkeypatch.setattr("comparisons.api.warnings_about_result", lambda outcome: [])
     monkeypatch.chdir(tmp_path)
-    return run
+    return solver
 
 
 @pytest.mark.parametrize(
@@ -150,7 +147,7 @@ def test_traceback_on_request(solver, capsys, monkeypatch):
         (["run", "smooth", "--moddels", "half-plane"], "No such option: --moddels"),
         (["run", "smooth", "smooth"], "unexpected extra argument"),
         (["run", "smooth", "--models", "fem"], "no model fem; the nearest is finite-element; all"),
-        (["run", "smooth", "--models", ","], "--models: is empty; allowed are half-plane, finite-"),
+        (["run", "smooth", "--models", ","], "models: is empty; allowed are half-plane, finite-"),
         (["run", "smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
     ],
 )
@@ -203,8 +200,8 @@ def test_the_half_plane_answers_before_anything_else_is_imported(tmp_path):
     others = {"matplotlib", "PIL", "vtkmodules", "jinja2"}
     others |= {"fem.body.elasticity", "fem.heat", "analytic.heat"}
     code = f"""import sys
-from comparisons.runs import run
-run.finish = lambda *_: print({others} & {{*sys.modules}})
+from comparisons.runs.finished import FinishedRun
+FinishedRun.write = lambda *_, **__: print({others} & {{*sys.modules}})
 from comparisons.cli import main
 main(["run", "smooth", "--models", "half-plane", "--out", {str(tmp_path / "out")!r}])"""
     out = python("-c", code).stdout

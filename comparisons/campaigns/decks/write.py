@@ -5,7 +5,8 @@ roller's the master, and the load acts on a reference node, with which the rolle
 moves as one. For FEniCSx a script of plain dolfinx, and the mesh and gap that it reads."""
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,15 +14,18 @@ import numpy as np
 from analytic.material.hardening import Hardening
 from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, deck_problem
 from comparisons.common.errors import InputError, SceneError
-from comparisons.common.files import check_writable, publish
+from comparisons.common.files import publish
 from comparisons.figures.quantity import MODELS
+from comparisons.output.flat_csv import Records
 from comparisons.output.page.html import rendered
+from comparisons.output.terminal import Printed
 from comparisons.runs.run import posed
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 
 TEMPLATES = Path(__file__).parent / "templates"
-FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
+PAGES = ("README.md", "answer.toml")
+FILES = (*PAGES, "job.inp", "mesh.inp", "solve.py", "mesh.npz")
 CODES = {"calculix": "CalculiX", "fenicsx": "FEniCSx"}
 MOST_LEVEL = 8
 AXES = ((0, "X"), (1, "Y"))
@@ -42,28 +46,52 @@ GAP_POINTS = 8  # an edge, of the sampled gap
 SAME = 1e-6  # of an edge: places that are one
 
 
-def write_deck(scene: Scene, code: str, out: Path, level: int = 1) -> DeckProblem:
-    """Write the deck of a scene for one of CODES to the folder `out`.
+@dataclass(frozen=True, repr=False)
+class Deck(Printed):
+    """A scene as input of one of CODES."""
+
+    scene: Scene
+    code: str
+    problem: DeckProblem
+    files: Mapping[str, str | bytes]  # that the code reads
+
+    @property
+    def figures(self) -> Records:
+        """The size of its mesh: nodes, and the edge of an element under the contact [m]."""
+        return Records([{"nodes": self.problem.nodes, "edge": self.problem.edge / MM}])
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        return {"code": self.code, "files": sorted([*self.files, *PAGES]), **self.figures.rows[0]}
+
+    def tables(self) -> str:
+        """Its size, and where it says how to solve it."""
+        return f"{self.problem.nodes} nodes; {PAGES[0]} says how to solve it"
+
+    def write(self, folder: Path) -> None:
+        """Write it into a folder. Raises InputError where that cannot be."""
+        values = {"code": self.code, "name": CODES[self.code], "deck": self.problem}
+        values |= {"scene": self.scene, "folder": folder}
+        pages = {name: rendered(TEMPLATES / f"{name}.j2", **values) for name in PAGES}
+        publish(folder, {**self.files, **pages}, FILES)
+
+
+def make_deck(scene: Scene, code: str, level: int = 1) -> Deck:
+    """The deck of a scene for one of CODES.
 
     level  of the scene's own refinement, from 1, whose elements the contact gets
-    Raises InputError for another code or level and a folder that cannot be written, SceneError for
-    a scene that decks of this code do not describe."""
+    Raises InputError for another code or level, SceneError for a scene that decks of this code do
+    not describe."""
     if code not in CODES:
         raise InputError(f"--for: is {code}; allowed is one of {', '.join(CODES)}")
     if not 1 <= level <= MOST_LEVEL:
         raise InputError(f"--level: is {level}; allowed is 1 to {MOST_LEVEL}")
-    check_writable(out, FILES)
     problem, _ = posed(scene, surface_of(scene), MODELS)
     if scene.finite_element.plastic and code == "fenicsx":
         why = "is true; allowed in a deck for fenicsx are elastic bodies"
         raise SceneError(f"{scene.source}: finite_element.plastic: {why}")
     deck = deck_problem(problem, problem.pitch_of(level))
-    files = fenicsx_files(deck) if code == "fenicsx" else calculix_files(deck)
-    values = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
-    for name in ("README.md", "answer.toml"):
-        files[name] = rendered(TEMPLATES / f"{name}.j2", **values)
-    publish(out, files, FILES)
-    return deck
+    return Deck(scene, code, deck, (fenicsx_files if code == "fenicsx" else calculix_files)(deck))
 
 
 def calculix_files(deck: DeckProblem) -> dict[str, str]:

@@ -49,7 +49,7 @@ DEGREES = (1, 2, 3)
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Verification(Campaign):
     """The rows of `verify`, with the pairs of stated uncertainty and true error among them."""
 
@@ -83,7 +83,7 @@ class Verification(Campaign):
             "pairs": [pair.as_dict() for pair in self.pairs],
         }
 
-    def summary(self) -> "RenderableType":
+    def tables(self) -> "RenderableType":
         """Coverage by model, quantity and kind; rows without pairs or that do not hold; verdict."""
         from rich.console import Group
 

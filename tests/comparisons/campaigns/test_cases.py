@@ -111,7 +111,7 @@ def test_one_bad_row_does_not_end_the_others_and_the_table_shows_all(written):
     assert [row.holds for row in campaign.rows] == [False, False, True]
     assert announced[-1] == "3 of 3, 2 failed: half_plane: tests: good"
     console = Console(width=160, file=io.StringIO())
-    console.print(campaign.summary())
+    console.print(campaign.tables())
     text = console.file.getvalue()
     assert "1 of 3 cases hold" in text and "[bold]" in text and "DOES NOT HOLD" in text
 
@@ -204,7 +204,9 @@ def solved(tmp_path_factory):
 
 def test_published_figures_agree_but_for_the_doubtful_one(solved):
     assert solved.holds and [row.case.name for row in solved.rows] == ["vm191", "vm272"]
-    verdicts = {f"{name} {row[0]}": row[6] for name, rows in solved.tables.items() for row in rows}
+    verdicts = {
+        f"{name} {row[0]}": row[6] for name, rows in solved.published.items() for row in rows
+    }
     assert verdicts == {
         "vm191 target, 2b": "agree",
         "vm191 Mechanical APDL, 2b": "differ, doubtful",
@@ -215,7 +217,7 @@ def test_published_figures_agree_but_for_the_doubtful_one(solved):
 
 
 def test_both_models_are_shown_in_the_published_unit(solved):
-    [_, peak, stick] = solved.tables["vm272"]
+    [_, peak, stick] = solved.published["vm272"]
     assert peak[1] == "9.351 MPa"
     for texts, size, unit in ((peak[2:4], 9.351, "MPa"), (stick[2:4], 0.9930, "mm")):
         for text in texts:
@@ -228,7 +230,7 @@ def test_a_figure_beyond_its_scatter_differs(tmp_path, monkeypatch):
     monkeypatch.setattr(Scene, "read", lambda name: scene)
     monkeypatch.setattr(benchmarks, "benchmark_names", lambda: ["vm272"])
     campaign = carried_out(tmp_path)
-    assert not campaign.holds and "p0" in str(campaign.tables)
+    assert not campaign.holds and "p0" in str(campaign.published)
 
 
 def test_every_benchmark_says_what_is_published_and_where():

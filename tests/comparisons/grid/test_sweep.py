@@ -36,7 +36,9 @@ def request(over):
 
 
 def values_of(swept, study, quantity):
-    return [r["value"] for r in swept.rows if (r["study"], r["quantity"]) == (study, quantity)]
+    return [
+        r["value"] for r in swept.figures.rows if (r["study"], r["quantity"]) == (study, quantity)
+    ]
 
 
 def test_placements_keep_the_contact_on_the_trace():
@@ -71,7 +73,7 @@ def test_each_point_is_the_scene_with_its_values():
     place, load = swept.content["points"][1]["values"]
     alone = WAVES | {"load": {"hertz_peak_pressure": load, "position": place, "friction": [0.0]}}
     there = crosscheck.run(alone, "half-plane").figures.rows
-    rows = [r for r in swept.rows if (r["load.position"], r["load.hertz_peak_pressure"])
+    rows = [r for r in swept.figures.rows if (r["load.position"], r["load.hertz_peak_pressure"])
             == (place, load)]  # fmt: skip
     assert [row["value"] for row in rows] == [row["value"] for row in there]
     assert "4 scenes (2 of load.position x 2 of load.hertz_peak_pressure), 0 failed" in repr(swept)

@@ -28,7 +28,7 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.output.page.tables.verification import commands
 from comparisons.output.result import FILE, content_of, read_result, result_of
-from comparisons.runs.rerun import rerun, rerun_summary
+from comparisons.runs.rerun import rerun
 from comparisons.runs.run import level_cache, planned, run, solve
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
@@ -405,7 +405,7 @@ def test_other_versions_are_named(spoilable):
     repetition = rerun(spoilable)
     assert repetition.other == {"numpy": ("0.1", versions()["numpy"])}
     console = Console(width=120, file=io.StringIO(), record=True)
-    console.print(rerun_summary(repetition))
+    console.print(repetition.tables())
     assert f"Other than recorded: numpy 0.1, now {versions()['numpy']}." in console.export_text()
 
 

@@ -13,7 +13,7 @@ import scenes
 from exact_partial_slip import SlippingContact
 
 import comparisons as crosscheck
-from comparisons.campaigns.decks.write import write_deck
+from comparisons.campaigns.decks.write import make_deck
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
 
@@ -61,7 +61,8 @@ def solved(
     folder: Path, tables: dict, level: int, old: str = "", new: str = "", column: int = PRESSURE
 ) -> np.ndarray:
     """x [m] and pressure [Pa] (n, 2) of a deck's last step, after a change of its text."""
-    deck = write_deck(scenes.resolved(tables), "calculix", folder, level)
+    deck = make_deck(scenes.resolved(tables), "calculix", level)
+    deck.write(folder)
     if old:
         text = (folder / "job.inp").read_text()
         assert old in text
@@ -70,8 +71,8 @@ def solved(
     done = subprocess.run(["ccx", "job"], cwd=folder, env=one, capture_output=True, timeout=600)
     assert done.returncode == 0, done.stdout[-500:]
     pressure = contact_values(folder / "job.frd", column)
-    surface = deck.rough.surface
-    x = deck.rough.points[surface, 0]
+    surface = deck.problem.rough.surface
+    x = deck.problem.rough.points[surface, 0]
     return np.column_stack([1e-3 * x, [1e6 * pressure.get(n + 1, 0.0) for n in surface]])
 
 

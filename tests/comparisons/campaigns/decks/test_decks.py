@@ -13,7 +13,7 @@ import scenes
 import comparisons as crosscheck
 from comparisons.api import scene_of
 from comparisons.campaigns.decks.problem import deck_problem
-from comparisons.campaigns.decks.write import write_deck
+from comparisons.campaigns.decks.write import make_deck
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.models.posing import problem_of
@@ -48,7 +48,9 @@ def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
 @pytest.mark.parametrize("scene", ["layer", "finite-strain", SLIDING])
 def test_a_deck_is_complete(tmp_path, scene):
     resolved = scene_of(scene)
-    deck = write_deck(resolved, "calculix", tmp_path)
+    made = make_deck(resolved, "calculix")
+    made.write(tmp_path)
+    deck = made.problem
     cards = blocks(tmp_path)
     assert {keyword for keyword, *_ in cards} <= KNOWN
     nodes, elements, sets, surfaces, materials = {}, {}, {}, {}, set()
@@ -100,7 +102,7 @@ def test_a_roller_that_friction_holds_is_let_go_along_x(tmp_path):
     """Tied along both axes, held while it is pressed, then loaded step by step."""
     slip = {"loads": [0.5, -0.25]}
     tables = scenes.changed(scenes.SMOOTH, load={"friction": [0.1, 0.3]}) | {"partial_slip": slip}
-    write_deck(scenes.resolved(tables), "calculix", tmp_path)
+    make_deck(scenes.resolved(tables), "calculix").write(tmp_path)
     cards = blocks(tmp_path)
     tied = [data[1][1] for keyword, _, data in cards if keyword == "EQUATION"]
     assert tied.count("1") == tied.count("2") > 0
@@ -144,14 +146,14 @@ def test_what_a_code_cannot_have_is_refused(tmp_path):
         (TWICE, "calculix", "load.friction: has 2"),
     ):
         with pytest.raises(SceneError, match=said):
-            write_deck(scenes.resolved(tables), code, tmp_path / code)
+            make_deck(scenes.resolved(tables), code)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("level", [1, 2])
 def test_the_script_for_fenicsx_solves_the_scene(tmp_path, level):
     """Errors of Hertz's peak pressure and half-width fall with the elements."""
-    write_deck(scene_of("smooth"), "fenicsx", tmp_path, level)
+    make_deck(scene_of("smooth"), "fenicsx", level).write(tmp_path)
     subprocess.run([sys.executable, "solve.py"], cwd=tmp_path, check=True, capture_output=True)
     x, pressure = np.loadtxt(tmp_path / "pressure.csv", delimiter=",", skiprows=1).T
     hertz = scenes.problem(crosscheck.Scene.read("smooth").written).hertz
