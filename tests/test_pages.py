@@ -149,8 +149,8 @@ class TestVerdict:
 class TestReference:
     def test_fields_are_as_the_scene_has_them(self):
         """`python -m comparisons.scenes.schema.reference` writes them anew."""
-        assert with_fields(TEXT["reference"]) == TEXT["reference"]
-        heads = re.findall(r"^### \[(\w+)", TEXT["reference"], re.M)
+        assert with_fields(TEXT["scene_fields"]) == TEXT["scene_fields"]
+        heads = re.findall(r"^## \[(\w+)", TEXT["scene_fields"], re.M)
         assert sorted(heads) == sorted(SECTIONS)
 
     def test_quantities_are_those_of_the_studies(self):

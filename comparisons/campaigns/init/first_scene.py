@@ -46,7 +46,7 @@ PEAK = {"hertz_peak_pressure": "1 GPa"}
 EXAMPLE = "an example: put in yours"
 HEAD = """\
 # A scene for crosscheck. Numbers are in SI units, text carries its unit. All other fields:
-# comparisons/docs/reference.md, "Fields of a scene".
+# comparisons/docs/scene_fields.md.
 """
 JUDGED = {
     "stress": {"depth": 1.0, "points": [300, 100]},

@@ -1,4 +1,4 @@
-"""The fields of a scene on the reference page: `python -m comparisons.scenes.schema.reference`
+"""The fields of a scene on their page: `python -m comparisons.scenes.schema.reference`
 writes them anew.
 
 Of each section it writes the heading, what the section is and the table of its fields; what stands
@@ -14,8 +14,8 @@ from comparisons.scenes.profile import VARIETIES, Variety
 from comparisons.scenes.scene import Scene, sections_of
 from comparisons.scenes.schema.json_schema import forms, json_schema, words
 
-PAGE = Path(__file__).parents[2] / "docs/reference.md"
-SECTION = re.compile(r"^### \[(\w+)(\.NAME)?\]\n.*?^\| `\1` .*?\n(?!\|)", re.MULTILINE | re.DOTALL)
+PAGE = Path(__file__).parents[2] / "docs/scene_fields.md"
+SECTION = re.compile(r"^## \[(\w+)(\.NAME)?\]\n.*?^\| `\1` .*?\n(?!\|)", re.MULTILINE | re.DOTALL)
 KINDS = re.compile(r"^\| `kind` \| needed .*?\n(?!\|)", re.MULTILINE | re.DOTALL)
 WRITING = re.compile(r': a number in [^ ]+ or "[^"]*"')  # of a quantity: the page says it once
 
@@ -32,7 +32,7 @@ def _section(name: str, several: str, kind: type[BaseModel]) -> str:
     said, root = re.sub(r"\n\s*", " ", kind.__doc__), json_schema(kind)
     rows = _rows("", root, root, kind.FOLLOW)
     head = (f"`{name}`", "is", "allowed", "by default")
-    return f"### [{name}{several}]\n\n{said}\n\n{_table(head, *rows)}"
+    return f"## [{name}{several}]\n\n{said}\n\n{_table(head, *rows)}"
 
 
 def _rows(
