@@ -86,18 +86,6 @@ def test_it_is_saved(outcome: Run, tmp_path):
     assert np.array_equal(again.contact("whole", 0.1)["pressure"], whole.solution.pressure)
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_further_frictions_have_folders_of_their_own(outcome: Run, tmp_path):
-    whole = outcome.data("model_error").wholes[1]
-    solution = replace(whole.solution, pressure=whole.solution.pressure.copy())
-    other = replace(whole, solution=solution)
-    budget = replace(outcome.data("model_error"), wholes=(other, whole))
-    write_files(replace(budgeted(outcome, budget), directory=tmp_path / "run"), no_progress)
-    names = {str(p.relative_to(tmp_path / "run")) for p in tmp_path.rglob("*") if p.is_file()}
-    assert {"whole/stress.vtu", "whole/friction_0.1/stress.vtu"} <= names
-    assert {"whole/contact.csv", "whole/friction_0.1/contact.csv"} <= names
-
-
 def test_notebooks_reach_it(outcome: Run, monkeypatch):
     monkeypatch.setattr(Run, "deciding_friction", 0.1)
     assert Plots(outcome).view("whole", "txz") is not None
