@@ -1,10 +1,11 @@
 """A model: assumptions, and a way to solve a problem under them on one level, with its cost.
 
 Analytic models are the half-plane and the effects that they have beside its assumptions; finite
-elements have the effects that the problem's scene gives them. A level is solved here alone, or as a
-task of a run, which keeps it by its key."""
+elements have the effects that the scene gives them, or that the model sets in it. A level is solved
+here alone, or as a task of a run, which keeps it by its key."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -25,11 +26,23 @@ class Model:
 
     name: str  # of its levels among the tasks of a run; of the scene's own, the source of figures
     solver: Literal["analytic", "finite elements"]
-    effects: frozenset[str] = frozenset()  # that an analytic model has beside the half-plane
+    # beside the half-plane's assumptions; of the scene's own finite elements they are the scene's
+    effects: frozenset[str] = frozenset()
     half_block: bool = False  # the far boundary of an unbounded body is at half the distance
     times: int = 1  # as long increments of plastic flow
     fields: bool = False  # give all stresses on the window and the mesh, not the largest alone
     label: str = ""  # of its stages
+    # fields of the scene that it sets, and the least size [m] of an unbounded body; its name tells
+    # such models apart
+    sets: Mapping[str, object] = field(default_factory=dict, compare=False)
+    least_block: float = field(default=0.0, compare=False)
+
+    def posed(self, problem: Problem) -> Problem:
+        """The problem that it solves, on the same pressure elements."""
+        if not self.sets:
+            return problem
+        scene = problem.scene.unchecked(self.sets)
+        return replace(problem, scene=scene, least_block=self.least_block)
 
     def cost(
         self, problem: Problem, number: int, patches: np.ndarray | None = None
@@ -37,7 +50,7 @@ class Model:
         """What a level will take by the laws of cost, before anything is meshed or solved: of
         finite elements in contact on `patches` (k, 2) [m], by default all over the stretch of
         pressures, which it never exceeds."""
-        pitch = problem.pitch_of(number)
+        problem, pitch = self.posed(problem), problem.pitch_of(number)
         if self.solver == "analytic":
             cost = expected_with(problem, pitch)
         else:
@@ -53,6 +66,7 @@ class Model:
         it needs alone; raises ContactError, MeshError, FemError and SceneError."""
         words = ", ".join(filter(None, (self.label, *self._checks.values(), f"level {number}")))
         stages = Stages(lambda stage: here.callback(f"{stage}, {words}"))
+        problem = self.posed(problem)
         contacts, levels, seconds = [problem], {}, 0.0
         if self._is_moved(problem):
             contacts = map(problem.under, problem.scene.load.friction)

@@ -59,10 +59,10 @@ class Effect:
         parts = [attrgetter(name)(scene) is not None for name in self.takes]
         return switches == self.sets if switches else any(parts)
 
-    def give(self, scene: Scene, whole: Scene) -> Scene:
-        """A plainer scene with what `whole` has of it."""
+    def given_by(self, scene: Scene) -> dict[str, object]:
+        """What a scene has of it, by field: a plainer one is given it so."""
         sets = {f"finite_element.{name}": value for name, value in self.sets.items()}
-        return scene.unchecked(sets | {name: attrgetter(name)(whole) for name in self.takes})
+        return sets | {name: attrgetter(name)(scene) for name in self.takes}
 
 
 # In the order of the sums of their contributions, whose last bit depends on it.
@@ -166,18 +166,23 @@ def is_taken_apart(scene: Scene) -> bool:
 
 def plain(scene: Scene) -> Scene:
     """The scene as the half-plane assumes it."""
-    switches = {name for effect in EFFECTS.values() for name in effect.sets}
-    sets = {name: FiniteElementSection.model_fields[name].default for name in switches}
-    sets |= {"coupled": scene.load.coupled}
-    sets |= {"plastic": False} if scene.finite_element.plastic is False else {}
-    bare = dict.fromkeys(name for effect in EFFECTS.values() for name in effect.takes)
-    return scene.unchecked(bare | {f"finite_element.{name}": set_ for name, set_ in sets.items()})
+    return with_effects(scene, ())
 
 
 def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
     """The scene with the named effects and no others."""
-    made = plain(scene)
-    for name in EFFECTS:
+    return scene.unchecked(fields_with(scene, names))
+
+
+def fields_with(scene: Scene, names: Iterable[str]) -> dict[str, object]:
+    """What gives a scene the named effects and no others, by field."""
+    switches = {name for effect in EFFECTS.values() for name in effect.sets}
+    sets = {name: FiniteElementSection.model_fields[name].default for name in switches}
+    sets |= {"coupled": scene.load.coupled}
+    sets |= {"plastic": False} if scene.finite_element.plastic is False else {}
+    fields = dict.fromkeys(name for effect in EFFECTS.values() for name in effect.takes)
+    fields |= {f"finite_element.{name}": value for name, value in sets.items()}
+    for name, effect in EFFECTS.items():
         if name in names:
-            made = EFFECTS[name].give(made, scene)
-    return made
+            fields |= effect.given_by(scene)
+    return fields

@@ -1,67 +1,56 @@
-"""Finite-element models of a scene with other effects, laws of elasticity or increments: each is a
-`ModelVariant`, on the same pressure elements."""
+"""Finite elements of a scene with other effects, or laws of elasticity: models on the same pressure
+elements."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from analytic.material import Law
-from comparisons.judging.effects.catalogue import EFFECTS, contained, with_effects
+from comparisons.judging.effects.catalogue import EFFECTS, contained, fields_with
 from comparisons.judging.effects.laws import OpenLaw
+from comparisons.models.model import Model
 from comparisons.models.problem import Problem
 from comparisons.scenes.sections import MurnaghanSection
 
 STRAINED = "P2"  # elements of finite deformation
 
 
-@dataclass(frozen=True)
-class ModelVariant:
-    """A finite-element model of the scene with other effects."""
+def model_with(
+    problem: Problem,
+    effects: frozenset[str],
+    friction: float | None = None,
+    quadratic: bool = False,
+) -> Model:
+    """With the effects and no others. An unbounded body is larger than the scene's, whose size it
+    lacks.
 
-    effects: frozenset[str]  # names of those that it has
-    # the coefficient that shapes its pressures; None: they are the same for all
-    friction: float | None = None
-    quadratic: bool = False  # its elements are those that finite deformation takes
-    laws: tuple[tuple[str, Law], ...] = ()  # by body, in place of the scene's own
-    laws_name: str = ""  # what these stand for
-    times: int = 1  # as long increments of flow
-    half_block: bool = False  # the far boundary of an unbounded body is at half the distance
-
-    @property
-    def name(self) -> str:
-        """Of its levels among the tasks of a run, beside what these check."""
-        words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
-        words += ["quadratic"] * self.quadratic
-        words += [f"as-{self.laws_name}"] * bool(self.laws)
-        at = "" if self.friction is None else f"@{self.friction:g}"
-        return f"effect-{'+'.join(words)}{at}"
-
-
-def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
-    """The problem of a variant, on the same pressure elements. An unbounded body in it is larger
-    than the scene's, whose size the variant lacks."""
-    scene = with_effects(problem.scene, variant.effects)
-    if variant.friction is not None:
-        scene = scene.unchecked({"load.friction": (variant.friction,)})
-    if variant.quadratic:
-        scene = scene.unchecked({"finite_element.element": STRAINED})
-    for body, law in variant.laws:
-        named = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
-        constants = named and MurnaghanSection(**named)
-        scene = scene.unchecked({f"{body}.law": law.name, f"{body}.murnaghan": constants})
-    lacking = (EFFECTS[name].beyond for name in contained(problem.scene) - variant.effects)
-    least = max((beyond(problem.scene) for beyond in lacking if beyond), default=0.0)
-    return replace(problem, scene=scene, least_block=least)
+    friction   the coefficient that shapes its pressures; None: they are the same for all
+    quadratic  its elements are those that finite deformation takes"""
+    scene, words = problem.scene, sorted(effect.replace("_", "-") for effect in effects) or ["none"]
+    sets, at = fields_with(scene, effects), ""
+    if friction is not None:
+        sets["load.friction"], at = (friction,), f"@{friction:g}"
+    if quadratic:
+        sets["finite_element.element"] = STRAINED
+        words.append("quadratic")
+    lacking = (EFFECTS[name].beyond for name in contained(scene) - effects)
+    labels = ", ".join(EFFECTS[name].label for name in sorted(effects)) or "no effect"
+    return Model(
+        f"effect-{'+'.join(words)}{at}",
+        "finite elements",
+        effects,
+        label=f"with {labels}",
+        sets=sets,
+        least_block=max((beyond(scene) for beyond in lacking if beyond), default=0.0),
+    )
 
 
-def law_variants(
-    whole: ModelVariant, laws: tuple[OpenLaw, ...]
-) -> dict[tuple[int, str], ModelVariant]:
+def law_variants(whole: Model, laws: tuple[OpenLaw, ...]) -> dict[tuple[int, str], Model]:
     """The whole with each probe, by place in `laws` and the probe's name."""
-    return {
-        (number, probe): replace(
-            whole,
-            laws=tuple((body, law) for body in open_law.bodies),
-            laws_name=f"{'-and-'.join(open_law.bodies)}-{'-'.join(probe.split())}",
-        )
-        for number, open_law in enumerate(laws)
-        for probe, law in open_law.probes.items()
-    }
+    variants = {}
+    for number, open_law in enumerate(laws):
+        for probe, law in open_law.probes.items():
+            named, sets = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True)), {}
+            constants = named and MurnaghanSection(**named)
+            for body in open_law.bodies:
+                sets |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
+            words = f"{whole.name}-as-{'-and-'.join(open_law.bodies)}-{'-'.join(probe.split())}"
+            variants[number, probe] = replace(whole, name=words, sets=whole.sets | sets)
+    return variants

@@ -12,7 +12,7 @@ elements, other operators, coarser and finer ones. Seconds are those of the stag
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import takewhile
 from operator import itemgetter
@@ -84,7 +84,7 @@ class Method:
     @property
     def model(self) -> Model:
         key = f"cost-{'-'.join(self.name.split())}"
-        return Model(key, self.solver, self.effects, label=self.name)
+        return Model(key, self.solver, self.effects, label=self.name, sets=self.fields)
 
 
 def methods_of(problem: Problem) -> list[Method]:
@@ -121,11 +121,10 @@ def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
     problem, left, asked = solved.problem, solved.problem.time, []
     patches = flowing_contact(problem)
     for method in methods_of(problem):
-        posed = replace(problem, scene=problem.scene.unchecked(method.fields))
         for number in method.numbers if method.kind in solved.plan.models else ():
-            left -= method.model.cost(posed, number, patches).seconds
+            left -= method.model.cost(problem, number, patches).seconds
             if left > 0.0:
-                how = tasks, posed, number, patches, LAST
+                how = tasks, problem, number, patches, LAST
                 asked.append((method, number, method.model.announce(*how)))
     return asked
 

@@ -15,7 +15,6 @@ from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Figures, deciding
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.effects.catalogue import EFFECTS, FINITE, FLOW, NONLINEAR
-from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.ladder import candidates
 from comparisons.judging.model_error.model_error import Solutions, figure_of
 from comparisons.judging.model_error.refinement import ErrorBudget
@@ -23,6 +22,7 @@ from comparisons.judging.rule import judged
 from comparisons.judging.study import LADDER, Case, Solved
 from comparisons.judging.yielding import FlowAssessment
 from comparisons.models.level import Solution
+from comparisons.models.model import Model
 from comparisons.models.smooth import closed_form
 
 HERTZ, HALF_PLANE = "hertz", "half_plane"
@@ -157,7 +157,7 @@ def _took(run: Solution) -> tuple[float, float]:
     return sum(run.seconds.values()), max(level.peak_memory for level in run.levels)
 
 
-def _took_by(budget: ErrorBudget, variants: Iterable[ModelVariant]) -> tuple[float, float]:
+def _took_by(budget: ErrorBudget, variants: Iterable[Model]) -> tuple[float, float]:
     """Seconds of variants on all of their levels, and the largest memory [bytes]."""
     costs = [budget.took.get(variant, (0.0, 0)) for variant in dict.fromkeys(variants)]
     return math.fsum(seconds for seconds, _ in costs), max(memory for _, memory in costs)

@@ -16,7 +16,8 @@ from dataclasses import dataclass, replace
 
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, NONLINEAR
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import STRAINED, ModelVariant, law_variants
+from comparisons.judging.effects.variants import STRAINED, law_variants, model_with
+from comparisons.models.model import Model
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import COUPLED, Problem
 
@@ -24,48 +25,41 @@ from comparisons.models.problem import COUPLED, Problem
 class NotComputedError(Exception):
     """A model variant has no solution; the message says why."""
 
-    def __init__(self, variant: ModelVariant, why: str) -> None:
-        super().__init__(variant, why)
-        self.variant = variant
-
-    def __str__(self) -> str:
-        return " ".join(str(self.args[1]).split())
-
 
 @dataclass(frozen=True)
 class SplitVariants:
     """The variants that the split takes at one friction coefficient."""
 
-    whole: ModelVariant  # with all effects
-    of_scene: ModelVariant | None  # that stands for the scene's own finite elements, None: these
-    nothing: ModelVariant  # without any effect
-    pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
+    whole: Model  # with all effects
+    of_scene: Model | None  # that stands for the scene's own finite elements, None: these
+    nothing: Model  # without any effect
+    pairs: dict[str, tuple[Model, Model]]  # by effect, with and without it
     # the whole with other laws of elasticity, by place in the selection's, and probe
-    laws: dict[tuple[int, str], ModelVariant]
+    laws: dict[tuple[int, str], Model]
     # the whole at small strains, where increments are the same as at finite ones, by longer
     # increments of flow, the longest first, and by its own; none where the scene's own finite
     # elements flow, or the whole does not
-    increments: tuple[ModelVariant, ...]
+    increments: tuple[Model, ...]
 
     @property
-    def wholes(self) -> tuple[ModelVariant, ...]:
+    def wholes(self) -> tuple[Model, ...]:
         """Those that the model error takes; the others split it."""
         return (self.whole,) if self.of_scene is None else (self.whole, self.of_scene)
 
     @property
-    def held_nearer(self) -> dict[str, ModelVariant]:
+    def held_nearer(self) -> dict[str, Model]:
         """By effect of size, what lacks it with its far boundary at half the distance."""
         sizes = {name: pair[1] for name, pair in self.pairs.items() if EFFECTS[name].beyond}
         return {name: replace(without, half_block=True) for name, without in sizes.items()}
 
     @property
-    def all(self) -> tuple[ModelVariant, ...]:
+    def all(self) -> tuple[Model, ...]:
         """Each once, the whole first."""
         of_pairs = (variant for pair in self.pairs.values() for variant in pair)
         return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
 
     @property
-    def checks(self) -> tuple[ModelVariant, ...]:
+    def checks(self) -> tuple[Model, ...]:
         """Those that are solved on the coarsest level alone."""
         return (*self.laws.values(), *self.increments, *self.held_nearer.values())
 
@@ -75,9 +69,9 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
     chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
     quadratic = problem.scene.finite_element.element != STRAINED and bool(chosen & set(NONLINEAR))
 
-    def variant(effects: frozenset[str]) -> ModelVariant:
+    def variant(effects: frozenset[str]) -> Model:
         shaped = effects & {COUPLED, *NONLINEAR} or problem.scene.load.coupled
-        return ModelVariant(effects, friction if shaped else None, quadratic)
+        return model_with(problem, effects, friction if shaped else None, quadratic)
 
     def grown(effects: frozenset[str]) -> frozenset[str]:
         """With what nonlinear bodies cannot be without."""

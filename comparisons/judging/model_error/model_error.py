@@ -27,7 +27,6 @@ from comparisons.figures.uncertainty import (
 from comparisons.judging.effects.catalogue import EFFECTS, LAW
 from comparisons.judging.effects.laws import LawSpread, OpenLaw, law_spread
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import ModelVariant
 from comparisons.judging.model_error.contributions import SplitVariants
 from comparisons.judging.model_error.quantities_of_interest import (
     LARGEST,
@@ -36,6 +35,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
 )
 from comparisons.judging.rule import formal_order, judged, relative_resolution
 from comparisons.judging.study import MODEL_ERROR, Case
+from comparisons.models.model import Model
 
 INTERACTION, JUMP = "interaction", "jump"  # parts beside the effects
 INPUTS = "inputs"  # of the uncertainty: what the errors of measured constants change
@@ -59,7 +59,7 @@ class Solutions:
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, that are not known
     # by variant, the solutions on each level, coarse to fine, with None for the scene's own finite
     # elements: of the wholes alone on the levels beyond `levels_split`; of the checks on the first
-    history: tuple[Mapping[ModelVariant | None, QuantitiesOfInterest], ...] = ()
+    history: tuple[Mapping[Model | None, QuantitiesOfInterest], ...] = ()
     levels_split: int = 0  # on which the effects are solved one by one
     unsplit: str | None = None  # why there is no such level
 
@@ -81,7 +81,7 @@ class Solutions:
         joint = [level[self.split.whole] - level[self.split.nothing] for level in levels]
         return [reduce(sub, changes) for changes in zip(joint, *self.effects.values(), strict=True)]
 
-    def solved(self, variant: ModelVariant | None) -> list[QuantitiesOfInterest]:
+    def solved(self, variant: Model | None) -> list[QuantitiesOfInterest]:
         """A variant on the levels of the effects."""
         return [level[variant] for level in self.history]
 

@@ -4,7 +4,7 @@ verdict."""
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -13,14 +13,13 @@ from comparisons.common.errors import InputError
 from comparisons.common.tasks import LAST, LATER, Tasks
 from comparisons.figures.figure import Figure, Figures
 from comparisons.judging.effects.catalogue import (
-    EFFECTS,
     LAW,
     NONLINEAR,
     contained,
     is_taken_apart,
 )
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import ModelVariant, problem_with
+from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     split_variants,
@@ -33,8 +32,7 @@ from comparisons.judging.model_error.quantities_of_interest import (
 from comparisons.judging.study import Case, Solved
 from comparisons.models.level import Level
 from comparisons.models.model import Model
-from comparisons.models.problem import COUPLED
-from comparisons.scenes.scene import Scene
+from comparisons.models.problem import COUPLED, Problem
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
@@ -64,7 +62,7 @@ class ErrorBudget:
     # of each case, what else is compared with the whole; empty where it has no solution
     solutions: tuple[Solutions, ...] = ()
     # by variant: seconds, and the largest memory [bytes]
-    took: dict[ModelVariant, tuple[float, int]] = field(default_factory=dict)
+    took: dict[Model, tuple[float, int]] = field(default_factory=dict)
 
     @property
     def seconds(self) -> float:
@@ -89,15 +87,15 @@ class EffectRefinement:
         self.scene, self.problem, self.tasks, self.rows = scene, scene.problem, tasks, tuple(rows)
         # by variant and number of the level from 1: by friction, or why there is no solution
         self.solved: dict[
-            tuple[ModelVariant, int], dict[float, QuantitiesOfInterest] | NotComputedError
+            tuple[Model, int], dict[float, QuantitiesOfInterest] | NotComputedError
         ] = {}
         # by variant, seconds that it took and the largest memory of its process [bytes]
-        self.took: dict[ModelVariant, tuple[float, int]] = {}
+        self.took: dict[Model, tuple[float, int]] = {}
         # seconds by the laws of cost, by variant and number of the level
-        self.expected: dict[tuple[ModelVariant, int], float] = {}
+        self.expected: dict[tuple[Model, int], float] = {}
         # of the half-plane's contact, by which costs are expected
         self._patches = scene.runs["half_plane"].levels[0].patches
-        self.own = own_variants(self.problem.scene)
+        self.own = own_variants(self.problem)
         self.select(selection)
 
     def select(self, selection: EffectSelection) -> None:
@@ -108,7 +106,7 @@ class EffectRefinement:
         self.every = dict.fromkeys(variant for split in self.splits for variant in split.all)
         self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
         # by friction, the finest level of those with every effect
-        self.finest: dict[ModelVariant, dict[float, Level]] = {s.whole: {} for s in self.splits}
+        self.finest: dict[Model, dict[float, Level]] = {s.whole: {} for s in self.splits}
         failed = self.failed
         for key in [k for k in self.solved if k[0] in self.finest and k not in failed]:
             del self.solved[key]
@@ -125,7 +123,7 @@ class EffectRefinement:
         return min(MOST_LEVELS, most or MOST_LEVELS)
 
     @property
-    def failed(self) -> dict[tuple[ModelVariant, int], NotComputedError]:
+    def failed(self) -> dict[tuple[Model, int], NotComputedError]:
         """Those that have no solution."""
         return {k: found for k, found in self.solved.items() if isinstance(found, NotComputedError)}
 
@@ -142,43 +140,40 @@ class EffectRefinement:
             self.announce(() if is_further else self.every, number, splitting)
 
     def announce(
-        self, asked: Iterable[ModelVariant], number: int, urgency: int = LATER
-    ) -> dict[ModelVariant, str]:
+        self, asked: Iterable[Model], number: int, urgency: int = LATER
+    ) -> dict[Model, str]:
         """Make those that are new on a level known to the tasks; the keys of these."""
         new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
         new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
         keys, how = {}, (number, self._patches)
         for variant in new:
             self.expected.setdefault((variant, number), self.forecast(variant, number))
-            model, problem = self._model(variant, number), problem_with(self.problem, variant)
-            keys[variant] = model.announce(self.tasks, problem, *how, urgency)
+            model = self._model(variant, number)
+            keys[variant] = model.announce(self.tasks, self.problem, *how, urgency)
         return keys
 
-    def prepare(self, asked: Iterable[ModelVariant], number: int) -> None:
+    def prepare(self, asked: Iterable[Model], number: int) -> None:
         """Solve the variants that are new on a level."""
         for variant, key in self.announce(asked, number).items():
             try:
                 found = self._noted(variant, number, self.tasks.result(key))
             except NO_SOLUTION as error:
-                found = NotComputedError(variant, str(error))
+                found = NotComputedError(" ".join(str(error).split()))
             self.solved[variant, number] = found
 
-    def is_open(self, variant: ModelVariant, number: int) -> bool:
+    def is_open(self, variant: Model, number: int) -> bool:
         """Whether a level of a variant is yet to be solved."""
         return variant not in self.own and (variant, number) not in self.solved
 
-    def solution(
-        self, variant: ModelVariant | None, number: int, case: Case
-    ) -> QuantitiesOfInterest:
+    def solution(self, variant: Model | None, number: int, case: Case) -> QuantitiesOfInterest:
         """Of a solved variant on a level, None for the scene's own finite elements."""
         if variant is None or variant in self.own:
             return quantities_of(case.runs["finite_element"].levels[number - 1], case.problem)
         return self.solved[variant, number][case.friction]
 
-    def forecast(self, variant: ModelVariant, number: int) -> float:
+    def forecast(self, variant: Model, number: int) -> float:
         """Seconds that a level of a variant takes by the laws of cost."""
-        problem = problem_with(self.problem, variant)
-        return self._model(variant, number).cost(problem, number, self._patches).seconds
+        return variant.cost(self.problem, number, self._patches).seconds
 
     def spent(self, below: float = math.inf) -> float:
         """Seconds, by the laws of cost, of the levels of the scene's finite elements and of all
@@ -244,11 +239,10 @@ class EffectRefinement:
         """On the coarsest level; where one of the laws has no solution, none is taken."""
         for split in self.splits:
             self.prepare(split.checks, 1)
-        laws = (variant for split in self.splits for variant in split.laws.values())
-        failed = [error for law in laws if (error := self.failed.get((law, 1)))]
-        if failed and self.selection.laws:
-            why = f"with the law of {failed[0].variant.laws_name}: {failed[0]}"
-            self.selection = self.selection.without(frozenset({LAW}), why)
+        laws, failed = (law for split in self.splits for law in split.laws.items()), self.failed
+        whys = [f"as {probe}: {why}" for (_, probe), v in laws if (why := failed.get((v, 1)))]
+        if whys and self.selection.laws:
+            self.selection = self.selection.without(frozenset({LAW}), whys[0])
 
     def _solutions(self, levels: int) -> list[Solutions]:
         """Of each case, what is solved so far on so many levels. The split is on those on which no
@@ -286,25 +280,18 @@ class EffectRefinement:
         figures = (figure_of(error, *known) for error in errors)
         return all(figure.is_fixed for figure in figures if figure.bounds)
 
-    def _model(self, variant: ModelVariant, number: int) -> Model:
-        """What solves the problem of a variant on a level."""
-        whole = variant in self.finest
-        words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
-        return Model(
-            f"{'whole' if whole else 'part'}-{variant.name}",
-            "finite elements",
-            half_block=variant.half_block,
-            times=variant.times,
-            fields=whole and number >= LEAST_LEVELS,  # it may be the finest
-            label=f"with {words}",
-        )
+    def _model(self, variant: Model, number: int) -> Model:
+        """What solves a level of a variant; of a whole with its fields, as it may be the finest."""
+        if variant not in self.finest:
+            return replace(variant, name=f"part-{variant.name}")
+        return replace(variant, name=f"whole-{variant.name}", fields=number >= LEAST_LEVELS)
 
     def _noted(
-        self, variant: ModelVariant, number: int, levels: Mapping[float, Level]
+        self, variant: Model, number: int, levels: Mapping[float, Level]
     ) -> dict[float, QuantitiesOfInterest]:
         """The solution of a variant on a level, by friction, once what it took is noted; raises
         ContactError where it is none."""
-        problem, clear = problem_with(self.problem, variant), CLEAR * self.problem.pitch_of(number)
+        problem, clear = variant.posed(self.problem), CLEAR * self.problem.pitch_of(number)
         for level in levels.values():
             if not level.converged:
                 raise ContactError(f"the contact did not converge on level {number}")
@@ -321,12 +308,13 @@ class EffectRefinement:
         return {friction: quantities_of(level, problem) for friction, level in levels.items()}
 
 
-def own_variants(scene: Scene) -> set[ModelVariant]:
+def own_variants(problem: Problem) -> set[Model]:
     """Those that the scene's own finite elements are; none where these are more than effects."""
+    scene = problem.scene
     if not is_taken_apart(scene):
         return set()
     own, frictions = contained(scene), (None, *scene.load.friction)
-    return {ModelVariant(own - ({COUPLED} if mu == 0.0 else set()), mu) for mu in frictions}
+    return {model_with(problem, own - ({COUPLED} if mu == 0.0 else set()), mu) for mu in frictions}
 
 
 def _settled(rows: tuple[Figure, ...], errors: list[Figure]) -> bool:

@@ -10,8 +10,7 @@ from comparisons.judging.effects.catalogue import (
     plain,
     with_effects,
 )
-from comparisons.judging.effects.variants import ModelVariant
-from comparisons.judging.effects.variants import problem_with as problem_with_effects
+from comparisons.judging.effects.variants import model_with
 
 SWITCHED = {
     "finite_size": {"body": {"thickness": 1e-3}},
@@ -60,7 +59,7 @@ def test_a_scene_with_one_switch_has_that_effect_alone(problem_with, name):
 )
 def test_what_lacks_a_size_ends_beyond_it(problem_with, tables, size):
     posed = problem_with(load={"hertz_peak_pressure": 2e8}, **tables)
-    assert min(problem_with_effects(posed, ModelVariant(frozenset())).unbounded) > 4.0 * size
+    assert min(model_with(posed, frozenset()).posed(posed).unbounded) > 4.0 * size
     assert posed.unbounded[0] == 400.0 * posed.hertz.half_width
 
 

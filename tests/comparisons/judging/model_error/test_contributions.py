@@ -10,20 +10,18 @@ import numpy as np
 import pytest
 
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import ModelVariant
-from comparisons.judging.effects.variants import problem_with as body_problem
+from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     split_variants,
 )
 from comparisons.judging.model_error.model_error import Solutions
 from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
-from comparisons.judging.rule import relative_differences
 from comparisons.judging.study import Case
 
 COUPLED = "normal_tangential_coupling"
 SINGLE = ("finite_roller", "exact_circle", COUPLED, "finite_strain")
-PLAIN = ModelVariant(frozenset())
+PLAIN, CIRCLE = "effect-none", "effect-exact-circle"  # names of models
 WAVY = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
 
 
@@ -71,8 +69,7 @@ def test_one_effect_does_not_interact(problem_with, made_solutions, name):
 
 def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
     problem = problem_with(finite_element={"roller_shape": "circle"})
-    contained = ModelVariant(frozenset({"exact_circle"}))
-    _, parts = split_by(problem, made_solutions(contained), contained={"exact_circle"})
+    _, parts = split_by(problem, made_solutions(CIRCLE), contained={"exact_circle"})
     assert set(parts.effects) == {"exact_circle"}
     assert not is_nothing(parts.effects["exact_circle"][0])
     assert is_nothing(parts.missing[0])
@@ -82,9 +79,12 @@ def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
     problem = problem_with(roller={"rigid": True}, load={"friction": [0.1, 0.3]})
     selection = selection_of(added={"exact_circle", COUPLED})
     asked = {pressed for mu in (0.1, 0.3) for pressed in split_variants(problem, selection, mu).all}
-    coupled = {variant.friction for variant in asked if COUPLED in variant.effects}
-    assert coupled == {0.1, 0.3}
-    assert {v.friction for v in asked if COUPLED not in v.effects} == {None}
+    coupled, others = (
+        [v for v in asked if (COUPLED in v.effects) == is_it] for is_it in (True, False)
+    )
+    posed = sorted(variant.posed(problem).scene.load.friction for variant in coupled)
+    assert posed == [(0.1,), (0.1,), (0.3,), (0.3,)]
+    assert {variant.posed(problem).scene.load.friction for variant in others} == {(0.1, 0.3)}
 
 
 class TestFiniteDeformation:
@@ -95,9 +95,9 @@ class TestFiniteDeformation:
         solutions = made_solutions(PLAIN)
         split, parts = split_by(problem, solutions, 0.2, added={"finite_strain"})
         assert set(parts.effects) == {"finite_strain"}
-        assert split.whole == ModelVariant(frozenset({"finite_strain", COUPLED}), 0.2)
-        assert set(solutions.asked) == {split.whole, PLAIN}
-        strained = body_problem(problem, split.whole)
+        assert split.whole == model_with(problem, frozenset({"finite_strain", COUPLED}), 0.2)
+        assert set(solutions.asked) == {split.whole.name, PLAIN}
+        strained = split.whole.posed(problem)
         assert strained.scene.finite_element.coupled and strained.scene.load.friction == (0.2,)
         assert strained.rough_boundary
 
@@ -106,70 +106,41 @@ class TestFiniteDeformation:
         split, parts = split_by(
             problem, made_solutions(PLAIN), 0.2, added={"finite_strain", COUPLED}
         )
-        coupled = ModelVariant(frozenset({COUPLED}), 0.2)
-        assert split.pairs[COUPLED] == (coupled, PLAIN)
+        coupled = model_with(problem, frozenset({COUPLED}), 0.2)
+        assert split.pairs[COUPLED] == (coupled, model_with(problem, frozenset()))
         assert split.pairs["finite_strain"] == (split.whole, coupled)
         assert is_nothing(parts.interaction[0])
 
     def test_all_bodies_are_solved_as_it_is(self, problem_with):
         problem = problem_with(finite_element={"element": "P3"})
         split = split_variants(problem, selection_of(added={"finite_strain"}), 0.0)
-        assert split.of_scene == split.nothing and all(variant.quadratic for variant in split.all)
-        scene = body_problem(problem, split.nothing).scene
-        assert scene.finite_element.element == "P2"
         linear = split_variants(problem, selection_of(added={"exact_circle"}), 0.0)
-        assert linear.of_scene is None and not any(variant.quadratic for variant in linear.all)
+        assert split.of_scene == split.nothing and linear.of_scene is None
+        for made, element in ((split, "P2"), (linear, "P3")):
+            scenes = [variant.posed(problem).scene for variant in made.all]
+            assert {scene.finite_element.element for scene in scenes} == {element}
 
 
 class TestWithoutSolution:
     ADDED = ("exact_circle", "finite_roller", "finite_strain")
 
     def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with, made_solutions):
-        alone = frozenset({ModelVariant(frozenset({"exact_circle"}))})
-        _, parts = split_by(problem_with(), made_solutions(PLAIN, alone), added=self.ADDED)
+        solutions = made_solutions(PLAIN, (CIRCLE,))
+        _, parts = split_by(problem_with(), solutions, added=self.ADDED)
         assert set(parts.effects) == {"finite_roller", "finite_strain"}
         assert is_nothing(what_is_left(parts))
 
     def test_of_none_the_whole_stays(self, problem_with, made_solutions):
-        circle = ModelVariant(frozenset({"exact_circle"}))
-        solutions = made_solutions(circle, frozenset({PLAIN}))
+        solutions = made_solutions(CIRCLE, (PLAIN,))
         split, parts = split_by(problem_with(), solutions, added=self.ADDED)
         assert parts.effects == {} and split.nothing not in parts.history[0]
         assert not is_nothing(parts.missing[0])
 
 
-class TestLargestValues:
-    """Of three asperities; the largest stands on the second, and on the third with an effect."""
-
-    BEFORE, AFTER = (
-        QuantitiesOfInterest({"peak_pressure": np.array(peaks), "contact_length": np.array([a])})
-        for peaks, a in (([1.0, 4.0, 3.0], 2.0), ([1.0, 4.2, 4.5], 3.0))
-    )
-
-    def test_a_change_is_that_of_one_asperity(self):
-        change = (self.AFTER - self.BEFORE).figures
-        assert change["peak_pressure"] == pytest.approx([0.0, 0.2, 1.5])
-        assert change["contact_length"] == pytest.approx([1.0])
-
-    def test_the_largest_of_each_may_stand_apart(self, problem_with):
-        assert (self.BEFORE.leading("peak_pressure"), self.AFTER.leading("peak_pressure")) == (1, 2)
-        one, other = self.AFTER.largest(), self.BEFORE.largest()
-        sizes = relative_differences(one, other, problem_with())
-        assert sizes == pytest.approx({"peak_pressure": 0.125, "contact_length": 0.5})
-
-
-def test_what_vanishes_is_measured_by_hertz(problem_with):
-    problem = problem_with()
-    figures = {"tau1_max": 2.0, "tau1_max_depth": 0.0}
-    moved = figures | {"tau1_max_depth": 1e-6}
-    sizes = relative_differences(moved, figures, problem)
-    assert sizes["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)
-
-
-def test_bodies_have_names_of_their_own():
+def test_bodies_have_names_of_their_own(problem_with):
     circle, roller, strain = ({n} for n in ("exact_circle", "finite_roller", "finite_strain"))
     bodies = [
-        ModelVariant(frozenset(names), friction, quadratic)
+        model_with(problem_with(), frozenset(names), friction, quadratic)
         for names in (set(), circle, roller, circle | roller, strain)
         for friction in (None, 0.1, 0.2)
         for quadratic in (False, True)

@@ -11,7 +11,7 @@ from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import ModelVariant
+from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
 )
@@ -65,15 +65,15 @@ def test_variants_of_other_processes_are_as_here(made, monkeypatch):
 
 
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
-    disc, circle = (ModelVariant(frozenset({name})) for name in ("finite_roller", "exact_circle"))
     bodies = made(Tasks())
+    disc, circle = (
+        model_with(bodies.problem, frozenset({n})) for n in ("finite_roller", "exact_circle")
+    )
     with patch.object(Model, "solve", side_effect=MeshError("no\nmesh")):
         bodies.prepare([disc], 1)
     bodies.prepare([disc, circle], 1)  # is not tried again
     assert bodies.solution(circle, 1, bodies.scene.cases[0])
-    error = bodies.failed[disc, 1]
-    for one in (error, pickle.loads(pickle.dumps(error))):  # of another process
-        assert (one.variant, str(one)) == (disc, "no mesh")
+    assert [(key, str(why)) for key, why in bodies.failed.items()] == [((disc, 1), "no mesh")]
 
 
 def test_of_a_whole_without_a_solution_nothing_is_known(made):
