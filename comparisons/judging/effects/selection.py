@@ -3,25 +3,36 @@
 A tolerance that is looser than the usual one selects as the usual one does: what it left out would
 count, and might keep from holding what holds at a tighter one."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from comparisons.common.numbers import with_unit
+from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import USUAL
+from comparisons.judging.coupling import Coupling, coupled
 from comparisons.judging.effects.catalogue import (
     EFFECTS,
     FINITE,
     FLOW,
     LAW,
     NONLINEAR,
+    UNKNOWN,
     contained,
     estimates,
     why_not,
 )
-from comparisons.judging.effects.estimates import Shown, Sizes
+from comparisons.judging.effects.estimates import Shown, Sizes, mean_pressure
 from comparisons.judging.effects.laws import OpenLaw, open_laws
+from comparisons.judging.study import Solved
+from comparisons.judging.yielding import flow_assessment
+from comparisons.models.plan import flow_seconds, time_with_flow
 from comparisons.models.problem import COUPLED, Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
+ASKED = 'budget.effects = "all" computes it'
 
 
 @dataclass(frozen=True)
@@ -99,6 +110,41 @@ class EffectSelection:
             for name, sizes in self.estimates.items()
             if name in unknown and quantity in sizes
         }
+
+
+def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
+    """As the half-plane selects them as far as it is refined, decided once."""
+    levels = len(solved.runs["half_plane"].levels)
+    return tasks.held("effects", levels, lambda: selected_effects(solved, coupled(solved, tasks)))
+
+
+def selected_effects(
+    solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = {}
+) -> EffectSelection:
+    """As the half-plane selects them, and what is `known` of effects that were computed."""
+    finest = (case.runs["half_plane"].finest for case in solved.cases)
+    pressure = max((level.solution.pressure for level in finest), key=np.max)
+    problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
+    flow = flow_assessment(solved)
+    # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
+    if not why_not(FLOW, problem) and time_with_flow(problem, patches) > problem.time:
+        more = with_unit(flow_seconds(problem, patches), "s", 2)
+        no_time = f"it takes {more} more (budget.time)"
+    mean = mean_pressure(pressure)
+    shown = Shown(float(pressure.max()), mean, couplings, flow.least_shear)
+    selection = select_effects(problem, shown, known, no_time)
+    asked = problem.scene.budget.effects
+    if not solved.plan.effects:
+        computed = {LAW} if selection.laws else set()  # beside the added
+        left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
+        return selection.without(left_out, "not asked for (budget.effects)")
+    flows = flow.beyond_doubt and FLOW not in selection.added | selection.found
+    # it flows, too, where nothing says how far
+    flows = flows or any(map(math.isinf, selection.estimates.get(FLOW, {}).values()))
+    if asked != "all" and flows:
+        why = f"the body flows, an elastic one cannot hold ({ASKED})"
+        return selection.without(selection.added, why)
+    return selection
 
 
 def select_effects(

@@ -20,9 +20,9 @@ from comparisons.figures.figure import (
 )
 from comparisons.figures.quantity import QUANTITIES, WHOLE, error_text, label
 from comparisons.judging import yielding
+from comparisons.judging.effects.selection import effects_of_run
 from comparisons.judging.ladder import candidates
 from comparisons.judging.ladder.rungs import HALF_PLANE, Rung, rungs
-from comparisons.judging.model_error.error_budget import effects_of_run
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT, Run, Solved, Study
 
 RUNGS = "rungs"  # series: what each rung took

@@ -10,18 +10,17 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 The model error and its uncertainty are stated for every figure in any case."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from comparisons.common.numbers import with_unit
-from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
+from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Part, is_decided
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.coupling import Coupling, coupled
+from comparisons.judging.coupling import coupled
 from comparisons.judging.effects.catalogue import (
     EFFECTS,
     FINITE,
@@ -30,8 +29,6 @@ from comparisons.judging.effects.catalogue import (
     LAW,
     SAMPLING,
     SMALL_STRAINS,
-    UNKNOWN,
-    why_not,
 )
 from comparisons.judging.effects.estimates import (
     Shown,
@@ -40,12 +37,17 @@ from comparisons.judging.effects.estimates import (
     law_of_elasticity,
     mean_pressure,
 )
-from comparisons.judging.effects.sampling import announce_sampling, sampling_estimate
-from comparisons.judging.effects.selection import EffectSelection, is_negligible, select_effects
+from comparisons.judging.effects.sampling import sampling_estimate
+from comparisons.judging.effects.selection import (
+    ASKED,
+    EffectSelection,
+    effects_of_run,
+    is_negligible,
+    selected_effects,
+)
 from comparisons.judging.model_error.contributions import NotComputedError, split_variants
 from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.model_error.refinement import (
-    ASKED,
     GROWTH_OF_TIME,
     LEAST_LEVELS,
     MOST_LEVELS,
@@ -53,8 +55,6 @@ from comparisons.judging.model_error.refinement import (
     ErrorBudget,
 )
 from comparisons.judging.study import MODEL_ERROR, Solved
-from comparisons.judging.yielding import flow_assessment
-from comparisons.models.plan import flow_seconds, time_with_flow
 
 
 def error_budget(solved: Solved, rows: tuple[Figure, ...], tasks: Tasks) -> ErrorBudget:
@@ -160,59 +160,6 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     more = with_unit(seconds, "s", 2)
     why = f"{SMALL_STRAINS}: finite ones take {more} more (budget.time)"
     return replace(selection.without(frozenset({FINITE}), why), time=time)
-
-
-def announce_effects(solved: Solved, tasks: Tasks) -> Callable[[], None]:
-    """Add to the tasks what `error_budget` will ask for, as the half-plane on the levels that the
-    scene asks for selects it: it may begin before the finite elements are done. Should a finer
-    half-plane select other effects, these are solved then.
-
-    Call what is returned once the scene's own finite elements leave a figure open on the least
-    levels. The whole will leave it open, too: its further level need not wait, and a process stays
-    with the bodies of one level."""
-    selection = effects_of_run(solved, tasks)
-    effects = EffectRefinement(solved, tasks, selection)
-    most = min(effects.most_levels, len(solved.runs["half_plane"].levels))
-    if FLOW in selection.added:
-        most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
-    effects.announce_all(LAST, most, PERHAPS)
-    announce_sampling(solved, tasks)
-    return partial(effects.announce_all, LATER, most)
-
-
-def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
-    """As the half-plane selects them as far as it is refined, decided once."""
-    levels = len(solved.runs["half_plane"].levels)
-    return tasks.held("effects", levels, lambda: selected_effects(solved, coupled(solved, tasks)))
-
-
-def selected_effects(
-    solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = {}
-) -> EffectSelection:
-    """As the half-plane selects them, and what is `known` of effects that were computed."""
-    finest = (case.runs["half_plane"].finest for case in solved.cases)
-    pressure = max((level.solution.pressure for level in finest), key=np.max)
-    problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
-    flow = flow_assessment(solved)
-    # by the laws of cost, of the levels that flow takes and of the scene's own finite elements
-    if not why_not(FLOW, problem) and time_with_flow(problem, patches) > problem.time:
-        more = with_unit(flow_seconds(problem, patches), "s", 2)
-        no_time = f"it takes {more} more (budget.time)"
-    mean = mean_pressure(pressure)
-    shown = Shown(float(pressure.max()), mean, couplings, flow.least_shear)
-    selection = select_effects(problem, shown, known, no_time)
-    asked = problem.scene.budget.effects
-    if not solved.plan.effects:
-        computed = {LAW} if selection.laws else set()  # beside the added
-        left_out = selection.added | computed | set(selection.impossible) - (set(UNKNOWN) - {LAW})
-        return selection.without(left_out, "not asked for (budget.effects)")
-    flows = flow.beyond_doubt and FLOW not in selection.added | selection.found
-    # it flows, too, where nothing says how far
-    flows = flows or any(map(math.isinf, selection.estimates.get(FLOW, {}).values()))
-    if asked != "all" and flows:
-        why = f"the body flows, an elastic one cannot hold ({ASKED})"
-        return selection.without(selection.added, why)
-    return selection
 
 
 def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:

@@ -18,7 +18,7 @@ from comparisons.judging.effects.catalogue import (
     contained,
     is_taken_apart,
 )
-from comparisons.judging.effects.selection import EffectSelection
+from comparisons.judging.effects.selection import ASKED, EffectSelection
 from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
@@ -38,7 +38,6 @@ from meshes.block import MeshError
 
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
-ASKED = 'budget.effects = "all" computes it'
 GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 # What a task raises where a variant has no solution.

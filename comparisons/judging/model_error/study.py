@@ -7,24 +7,23 @@ said then, beside estimates of what it leaves out."""
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 
 from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Early
-from comparisons.common.tasks import Tasks
+from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement
 from comparisons.figures.quantity import QUANTITIES, WHOLE
 from comparisons.judging import comparison
 from comparisons.judging.coupling import Coupling, coupled
-from comparisons.judging.effects.catalogue import EFFECTS, estimates
+from comparisons.judging.effects.catalogue import EFFECTS, FLOW, estimates
 from comparisons.judging.effects.estimates import Shown, mean_pressure
 from comparisons.judging.effects.laws import trust
+from comparisons.judging.effects.sampling import announce_sampling
+from comparisons.judging.effects.selection import effects_of_run
 from comparisons.judging.model_error import show
-from comparisons.judging.model_error.error_budget import (
-    announce_effects,
-    effects_of_run,
-    error_budget,
-)
-from comparisons.judging.model_error.refinement import ErrorBudget
+from comparisons.judging.model_error.error_budget import error_budget
+from comparisons.judging.model_error.refinement import LEAST_LEVELS, EffectRefinement, ErrorBudget
 from comparisons.judging.model_error.show import TRUST
 from comparisons.judging.rule import values_of
 from comparisons.judging.study import MODEL_ERROR as NAME
@@ -63,11 +62,24 @@ def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
 
 
 def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
-    more = announce_effects(solved, tasks)
+    """Add to the tasks what `error_budget` will ask for, as the half-plane on the levels that the
+    scene asks for selects it: it may begin before the finite elements are done. Should a finer
+    half-plane select other effects, these are solved then.
+
+    Call what is returned once the scene's own finite elements leave a figure open on the least
+    levels. The whole will leave it open, too: its further level need not wait, and a process stays
+    with the bodies of one level."""
+    selection = effects_of_run(solved, tasks)
+    effects = EffectRefinement(solved, tasks, selection)
+    most = min(effects.most_levels, len(solved.runs["half_plane"].levels))
+    if FLOW in selection.added:
+        most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
+    effects.announce_all(LAST, most, PERHAPS)
+    announce_sampling(solved, tasks)
     case, moved = max(solved.cases, key=lambda case: case.friction), coupled(solved, tasks)
     for line in early_lines(case.problem, case.runs["half_plane"].finest, moved):
         tasks.callback(Early(line))
-    return more
+    return partial(effects.announce_all, LATER, most)
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:

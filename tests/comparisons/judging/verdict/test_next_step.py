@@ -32,7 +32,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import LAW, SAMPLING
-from comparisons.judging.model_error.error_budget import ASKED, selected_effects
+from comparisons.judging.effects.selection import ASKED, selected_effects
 from comparisons.judging.model_error.model_error import INPUTS
 from comparisons.judging.model_error.refinement import ErrorBudget
 from comparisons.judging.study import (
