@@ -20,13 +20,6 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
 from comparisons.drawing.style import collected_figures, svgs
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.grid.content import (
-    BELOW,
-    INCONCLUSIVE,
-    SIGNIFICANT,
-    points_within,
-    significance,
-)
 from comparisons.grid.groups import (
     Axis,
     axis_of,
@@ -35,7 +28,15 @@ from comparisons.grid.groups import (
     scene_with,
     usual_axes,
 )
-from comparisons.grid.map_point import TOLERANCES, solve_point
+from comparisons.grid.map_error import (
+    BELOW,
+    INCONCLUSIVE,
+    SIGNIFICANT,
+    TOLERANCES,
+    points_within,
+    significance,
+    solve_point,
+)
 from comparisons.grid.mark import mark_of
 from comparisons.grid.points import (
     FAILED,
@@ -64,7 +65,7 @@ FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/grid/points.py")
-CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_point.py"))
+CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_error.py"))
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,8 @@ import numpy as np
 
 from comparisons.drawing.style import figure
 from comparisons.figures.quantity import label
-from comparisons.grid.content import (
-    BELOW,
-    INCONCLUSIVE,
-    SIGNIFICANT,
-    of_points,
-    places,
-    scaled,
-)
+from comparisons.grid.groups import GROUPS
+from comparisons.grid.map_error import BELOW, INCONCLUSIVE, SIGNIFICANT, of_points
 from comparisons.grid.points import FAILED
 
 if TYPE_CHECKING:
@@ -63,6 +57,18 @@ def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
         marked = axes.plot(*at, zorder=5, clip_on=False, **look)
     _legend(axes, content, kinds, lines, marked)
     return drawn
+
+
+def places(axis: dict, *values: float) -> np.ndarray:
+    """Where values lie on an axis, its own by default: their logarithms on a logarithmic axis."""
+    values = np.array(values or axis["values"])
+    return np.log10(values) if axis["logarithmic"] else values
+
+
+def scaled(error: np.ndarray | float, content: dict) -> np.ndarray | float:
+    """As a map is drawn: nearly logarithmic for either sign, straight up to what its groups say."""
+    straight = max(GROUPS[content[axis]["group"]].straight for axis in "xy")
+    return np.arcsinh(np.asarray(error) / straight)
 
 
 def _edges(places: np.ndarray) -> np.ndarray:

@@ -12,8 +12,8 @@ from comparisons.common.provenance import versions
 from comparisons.drawing.style import svgs
 from comparisons.grid.groups import scene_with
 from comparisons.grid.map import FINISHED, finished_map, finished_names, request_of
+from comparisons.grid.map_error import TOLERANCES, solve_point
 from comparisons.grid.map_picture import map_figure
-from comparisons.grid.map_point import TOLERANCES, solve_point
 from comparisons.grid.mark import mark_of, problem_named, unlike
 from comparisons.grid.points import FAILED, SOLVED
 from comparisons.models.finite_element.level import problem_of_approach

@@ -7,11 +7,9 @@ import pytest
 from analytic.exact.layers import layer_references
 from analytic.exact.sliding import sliding_from_load
 from comparisons.common.errors import InputError, SceneError
-from comparisons.figures.figure import Figure
-from comparisons.figures.uncertainty import Uncertainty
 from comparisons.grid.groups import axis_of, counts_of, scene_with
 from comparisons.grid.map import request_of
-from comparisons.grid.map_point import is_open, solve_point
+from comparisons.grid.map_error import solve_point
 from comparisons.grid.points import FAILED, SOLVED, Point, answered
 from comparisons.models.posing import problem_of
 from comparisons.scenes.files import SCENES
@@ -200,18 +198,6 @@ class TestModelError:
         error = solved(problem.scene)["peak_pressure"]
         exact = problem.hertz.peak_pressure / moved.peak_pressure - 1.0
         assert abs(error["difference"] - exact) <= error["uncertainty"] < 0.1 * abs(exact)
-
-    @pytest.mark.parametrize(
-        ("difference", "uncertainty", "expected"),
-        [(-0.3, 0.11, True), (-0.3, 0.09, False), (0.0, 0.004, True), (0.0, 0.003, False),
-         (0.1, np.inf, True)],
-    )  # fmt: skip
-    def test_levels_are_added_while_the_uncertainty_would_show(
-        self, difference, uncertainty, expected
-    ):
-        stated = Uncertainty({"numerical": uncertainty})
-        error = Figure("map", "peak_pressure", "half_plane", difference, uncertainty=stated)
-        assert is_open(error) is expected
 
     def test_what_cannot_be_solved_is_an_answer(self):
         point = found_at(scene_with(Scene.of(RIGID), {"a_over_width": 1.0}))

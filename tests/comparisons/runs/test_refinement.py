@@ -167,7 +167,7 @@ def keys() -> tuple[str, str]:
         ("comparisons/models/law.py", "levels map"),
         ("analytic/law.py", "levels map"),
         ("comparisons/studies/law.py", "levels map"),
-        ("comparisons/grid/map_point.py", "map"),
+        ("comparisons/grid/map_error.py", "map"),
     ],
 )
 def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, place, loses):
