@@ -4,7 +4,7 @@
 
 Every level is solved in a process of its own, on one thread, with its stresses. Printed are its
 unknowns, processor seconds and peak memory, and expected over measured. By these laws levels are
-planned and refused (`comparisons.models.finite_element.cost`); no clock may do that.
+planned and refused (`comparisons.models.finite_element.mesh`); no clock may do that.
 
 Exit status 0 only if every ratio is within WITHIN of 1, either way, where a level takes LEAST
 seconds or more: a shorter one is mostly the start of its process.

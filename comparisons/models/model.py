@@ -54,7 +54,7 @@ class Model:
         if self.solver == "analytic":
             cost = expected_with(problem, pitch)
         else:
-            from comparisons.models.finite_element.cost import expected
+            from comparisons.models.finite_element.mesh import expected
 
             there = np.array([problem.extent]) if patches is None else patches
             cost = expected(problem, self._refinement(pitch), there)

@@ -17,10 +17,14 @@ from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import SmallStrainContact
-from comparisons.models.finite_element.cost import expected
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
-from comparisons.models.finite_element.stress import LoadedBody, pressed_linearly, stresses_of
+from comparisons.models.finite_element.loaded import (
+    LoadedBody,
+    pressed_finitely,
+    pressed_linearly,
+    pressed_plastically,
+    stresses_of,
+)
+from comparisons.models.finite_element.mesh import Refinement, expected
 from comparisons.models.level import Level, flowing_contact, refuse_too_large
 from comparisons.models.operators import LAYERS, operator_of
 from comparisons.models.posing import settled

@@ -1,4 +1,5 @@
-"""The meshes of a scene's bodies: what to ask for, and how many displacements they will have."""
+"""The meshes of a scene's bodies: what to ask for, how many displacements they will have, and
+what a level on them will take."""
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
@@ -7,9 +8,11 @@ import numpy as np
 
 from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.roller import roller_spec
+from comparisons.models.level import ExpectedCost
 from comparisons.models.problem import Problem
 from comparisons.models.window import field_ends
 from fem.nonlinear.press_plastic import TRAVEL
+from fem.solver.mumps import factorisation_seconds
 from meshes.block import BlockMesh, BlockSpec
 from meshes.real_shape import roughen
 from meshes.refined_ranges import refined_ranges
@@ -25,6 +28,20 @@ LAYER_EXTENT = 12.0  # thicknesses beyond the contact: a layer's displacements d
 # elements of the first level, four of the shortest waves; largest heights of the profile, which
 # keeps the fading's own slope below 0.4. Peak pressures change by less than 3e-6 from 10 to 160.
 FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
+# Peak of the process: without unknowns, and of each (1.9 to 3 kB from 38 000 to 170 000 unknowns).
+START_BYTES, BYTES_PER_UNKNOWN = 1.7e8, 2600.0
+# Seconds an unknown of gmsh, assembly, back-substitutions and stresses, on one core.
+MESH_SECONDS, ASSEMBLY_SECONDS, REST_SECONDS = 5e-6, 1.6e-6, 3e-6
+START_SECONDS = 0.3  # of gmsh's own process
+# Of one process at the peak, and seconds an unknown: finite deformation of two rough bodies under
+# friction, stresses included (2600 bytes; 15 to 17 us from 88 000 to 613 000 unknowns); one step
+# of plastic flow, pressed and let go (2300 bytes; 9 to 12 us from 13 000 to 220 000).
+NONLINEAR_BYTES = 3500.0
+# Of a body that flows, times unknowns^0.2: 3.2 to 5.5 kB from 78 000 to 690 000 unknowns.
+FLOW_BYTES, FLOW_ORDER = 360.0, 0.2
+FINITE_SECONDS, FLOW_SECONDS = 1.7e-5, 1.1e-5
+FINITE_FLOW = 2.0  # times as long an unknown at finite strains, on a rough surface
+FEWEST_INCREMENTS = 4.0  # of plastic flow, however little it spreads
 
 
 @dataclass(frozen=True)
@@ -94,6 +111,33 @@ def expected_unknowns(problem: Problem, refinement: Refinement, patches: np.ndar
         unknowns += estimate_unknowns(roller_spec(problem, spec))
     # of a triangle's nodes two thirds are midpoints of edges; cubic elements have 9/4 as many
     return round(unknowns * {1: 0.25, 2: 1.0, 3: 2.25}[problem.scene.finite_element.degree])
+
+
+def expected(problem: Problem, refinement: Refinement, patches: np.ndarray) -> ExpectedCost:
+    """For contact predicted on `patches` (k, 2) [m]."""
+    unknowns = expected_unknowns(problem, refinement, patches)
+    factorisation = factorisation_seconds(unknowns)
+    others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS
+    seconds, memory = START_SECONDS + factorisation + others * unknowns, BYTES_PER_UNKNOWN
+    settings = problem.scene.finite_element
+    if settings.deformation == "finite":
+        seconds, memory = seconds + FINITE_SECONDS * unknowns, NONLINEAR_BYTES
+    if settings.plastic:
+        steps = flow_increments(problem, refinement, patches)
+        steps *= FINITE_FLOW if settings.deformation == "finite" else 1.0
+        seconds += FLOW_SECONDS * steps * unknowns
+        memory = max(NONLINEAR_BYTES, FLOW_BYTES * unknowns**FLOW_ORDER)
+    return ExpectedCost(unknowns, START_BYTES + memory * unknowns, seconds)
+
+
+def flow_increments(problem: Problem, refinement: Refinement, patches: np.ndarray) -> float:
+    """Increments of the load in which a body flows. The edges of the `patches` (k, 2) [m] come from
+    their middles, at most over Hertz's contact, and travel one hat an increment in the mean
+    (`fem.nonlinear.press_plastic.edge_travel`): early those of the widest, later all of them."""
+    span = 2.0 * problem.hertz.half_width
+    halves = 0.5 * np.minimum(np.ptp(patches, axis=1), span)
+    travel = 0.5 * (halves.max() + halves.mean())
+    return max(FEWEST_INCREMENTS, float(travel / (refinement.travel * refinement.pitch)))
 
 
 def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:

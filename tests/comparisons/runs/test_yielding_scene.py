@@ -13,10 +13,9 @@ from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import length_resolution
 from comparisons.judging.rule import judged, values_of
-from comparisons.models.finite_element.cost import expected, flow_increments
 from comparisons.models.finite_element.level import finite_element_level
-from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.finite_element.nonlinear import refuse_cut_off
+from comparisons.models.finite_element.loaded import refuse_cut_off
+from comparisons.models.finite_element.mesh import Refinement, expected, flow_increments
 from comparisons.models.level import flowing_contact
 from comparisons.output.page.pictures.stresses import plastic_strain_pictures
 from comparisons.runs.run import run

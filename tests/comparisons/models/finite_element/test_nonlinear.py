@@ -14,8 +14,8 @@ from scenes import STEEL, changed, finite_elements, problem
 from analytic.material import Law, Material
 from analytic.material.third_order import LENGTH_OVER_PEAK, peak_change
 from comparisons.models.finite_element import level as finite_element_level_module
-from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
-from comparisons.models.finite_element.nonlinear import pressed_finitely
+from comparisons.models.finite_element import loaded
+from comparisons.models.finite_element.loaded import pressed_finitely
 from comparisons.models.posing import problem_of
 from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
@@ -41,7 +41,7 @@ def pressed(problem, shift: float):
         end = profile.x[-1] - grid.x[-1] - shift
         surface = replace(problem.surface, profile=profile.shifted(end))
         problem = replace(problem, surface=surface)
-    with patch.object(finite_element_nonlinear, "finite_contact", return_value=finite):
+    with patch.object(loaded, "finite_contact", return_value=finite):
         return pressed_finitely(SimpleNamespace(problem=problem, grid=grid, solution=linear))
 
 
@@ -75,7 +75,7 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller, shape):
     posed = problem(tables)
     led = finite_elements(posed).solution
     with (
-        patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError),
+        patch.object(loaded, "solve_with_model", side_effect=FemError),
         patch.object(finite_deformation, "ASIDE", 1e-5),
     ):
         other = finite_elements(posed).solution

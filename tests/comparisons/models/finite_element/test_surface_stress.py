@@ -10,7 +10,7 @@ from scenes import STEEL, problem
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.study import unsolved
-from comparisons.models.finite_element.stress import stresses_of
+from comparisons.models.finite_element.loaded import stresses_of
 from comparisons.models.level import MeshField
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of

@@ -1,33 +1,83 @@
-"""The rough body where it is not linear: at finite deformation, or flowing.
+"""The rough body under load, linear, at finite deformation, or flowing: its surface, its stresses
+on the window and at the mesh's points.
 
-Both start from the linear solution."""
+What is not linear starts from the linear solution."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import assessed
+from analytic.contact.problem import ContactSolution, assessed
+from analytic.stress_state import von_mises
 from comparisons.models.finite_element.contact import SmallStrainContact
 from comparisons.models.finite_element.roller import is_disc, roller_of
-from comparisons.models.finite_element.stress import LoadedBody
-from comparisons.models.level import STRAIN
+from comparisons.models.level import STRAIN, MeshField, RecoverableField, StressResult, highest
+from comparisons.models.operators import patches_of
 from comparisons.models.problem import mean_height
+from comparisons.models.readings import ends_of
+from comparisons.models.window import Window
+from fem.body.elasticity import ElasticBody
+from fem.body.triangle import shapes
 from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_finite import FiniteLoadHistory
 from fem.nonlinear.press_plastic import LoadHistory, averaged_pressure, plastic_fields
 from fem.solver.mumps import FemError
-from fem.stress.stress import at_nodes
+from fem.stress.maximum import Samples, highest_node, maxima, maximum
+from fem.stress.stress import NodalStress, at_nodes, evaluate_all
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
 # Residuals of a contact at finite deformation, over the displacements; 1e-6 moves figures by 1e-4.
 FINITE_TOLERANCE = 1e-7
 ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
+
+
+@dataclass(frozen=True)
+class LoadedBody:
+    """The rough body in contact."""
+
+    body: ElasticBody
+    solution: ContactSolution
+    displacement: np.ndarray  # (count,) [m^2] of its surface into the body, weighted by each hat
+    patches: np.ndarray  # (k, 2) [m] contact patches
+    # what stresses of a linear body are recovered from under some friction coefficients; of any
+    # other body `stress` and `moved` are known
+    linear: Callable[[tuple[float, ...]], RecoverableField] | None = None
+    stress: NodalStress | None = None
+    moved: np.ndarray | None = None  # (n, 2) [m] at the nodes of the displacement
+    # stress across the plane (n,) [Pa] at the mesh's points; a linear body's is nu (sx + sz)
+    across: np.ndarray | None = None
+    others: dict[str, np.ndarray] = field(default_factory=dict)  # further fields there, by name
+    # (n,) [Pa] largest principal shear that a metal bears there; None: any
+    bearable: np.ndarray | None = None
+    # (count,) [m] where what now stands at the grid's nodes stood without load; None: there
+    material: np.ndarray | None = None
+
+
+def pressed_linearly(contact: SmallStrainContact) -> LoadedBody:
+    """The linear elastic body under the pressures of a contact."""
+    problem, grid, solution = contact.problem, contact.grid, contact.solution
+    rough, pressure, parts = contact.operator.rough, solution.pressure, contact.operator.parts
+
+    def linear(frictions: tuple[float, ...]) -> RecoverableField:
+        moved = np.stack([rough.displacement(pressure, friction) for friction in frictions], axis=1)
+        body, ends = rough.body, ends_of(problem, grid, solution)
+        placed = body.mesh, body.material, body.coating, body.degree, moved
+        return RecoverableField(*placed, rough.hats, pressure, frictions, ends)
+
+    scene = problem.scene
+    dragged = scene.load.friction[0] if scene.finite_element.coupled else 0.0
+    if len(parts) == 1 and not dragged:  # its share of what closed the gap
+        both = (solution.gap + solution.approach) * grid.weights - contact.gap
+        displacement = both / parts[0].factor
+    else:
+        displacement = rough.apply(pressure, dragged)
+    return LoadedBody(rough.body, solution, displacement, patches_of(grid, solution), linear)
 
 
 def pressed_finitely(contact: SmallStrainContact) -> LoadedBody:
@@ -182,3 +232,61 @@ def finite_contact(linear: SmallStrainContact) -> FiniteDeformation:
 def _of_linear(contact: SmallStrainContact) -> dict[str, int]:
     """What the linear contact took that was begun with."""
     return {f"linear_{name}": count for name, count in contact.solution.iterations.items()}
+
+
+def _borne(pressed: LoadedBody, nodal: NodalStress, largest: np.ndarray) -> np.ndarray:
+    """Largest shears with their places (3, k) [Pa], [m], no larger than what a metal bears there:
+    between nodes on the yield surface a recovered field may be beyond it."""
+    if pressed.bearable is None:
+        return largest
+    known = np.flatnonzero(~np.isnan(largest[1]))
+    element, at = pressed.body.locator(largest[1:, known].T)
+    around = pressed.bearable[nodal.nodes.triangles[element]]
+    flows = np.isfinite(around).all(axis=1)  # a coating does not
+    known, limit = known[flows], (shapes(at[flows]) * around[flows]).sum(axis=1)
+    largest[0, known] = np.minimum(largest[0, known], limit)
+    return largest
+
+
+def stresses_of(
+    pressed: LoadedBody,
+    frictions: tuple[float, ...],
+    window: Window,
+    asperities: tuple[float, ...] = (),
+    fields: bool = True,
+) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
+    """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
+
+    asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
+    fields      whether these are wanted; else stresses are computed only where they may be the
+                largest
+    """
+    body, results = pressed.body, []
+    linear = pressed.linear and pressed.linear(frictions)
+    nodal = linear.on(body) if linear else (pressed.stress,) * len(frictions)
+    bounds = (*window.ends, window.z[-1])
+    shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
+    shown = [None] * len(frictions)
+    if fields:
+        shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
+    for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
+        samples = Samples(body, stresses)
+        searched = bounds, asperities, samples
+        highest_places = {
+            name: _borne(pressed, stresses, maxima(body, stresses, of, *searched))
+            for name, of in shears.items()
+        }
+        extremes = {name: highest(most) for name, most in highest_places.items()}
+        if linear:
+            where = bounds, samples
+            mises = maximum(body, stresses, lambda s: s.von_mises(s.poissons_ratio), *where)
+        else:
+            mises = highest_node(body, stresses, pressed.across, bounds)
+        extremes["von_mises"] = mises
+        results.append(StressResult(friction, extremes, highest_places, on_window))
+    if linear or not fields:
+        return tuple(results), linear if fields else None
+    mises = von_mises(nodal[0].stress, pressed.across)
+    others = {"sy": pressed.across, "von_mises": mises, **pressed.others}
+    moved = np.stack([pressed.moved] * len(frictions), axis=1)
+    return tuple(results), MeshField.of(body, frictions, nodal, moved, others)
