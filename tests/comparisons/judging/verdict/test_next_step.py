@@ -229,19 +229,6 @@ def test_the_command_is_the_users_own_with_what_is_offered_in_its_place(typed, m
     assert pasted(run, offer) == (f"{kept} --set budget.time=600 --tolerance 0.02",)
 
 
-def test_a_scene_that_init_wrote_takes_every_kind_of_offer(typed, tmp_path):
-    x = np.arange(800)
-    np.savetxt(tmp_path / "trace.csv", np.column_stack([x, 0.1 * np.sin(x / 9.0)]), delimiter=",")
-    units = ["--x-unit", "um", "--z-unit", "um"]
-    assert main(["init", "trace.csv", *units, "--no-picture", "--peak-pressure", "1.5 GPa"]) == 0
-    said = set()
-    for seed in range(18):
-        asked = ["", " --set body.yield_stress='0.2 GPa'", " --tolerance=1% --out there"][seed % 3]
-        scene, _ = typed("crosscheck run trace.toml" + asked)
-        said |= check(stated(random.Random(seed), posed(scene)), typed)
-    assert {"budget.time", "resolution.pitch", *OPTIONS} <= said
-
-
 def test_two_hundred_random_scenes_take_every_kind_of_offer(typed, tmp_path):
     number, said = 0, set()
     for seed in range(10**6):

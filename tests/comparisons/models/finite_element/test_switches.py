@@ -82,11 +82,6 @@ def test_cubic_elements_err_less_and_linear_ones_more():
     assert 3.0 * errors["P3"] < errors["P2"] < errors["P1"] / 50.0
 
 
-def test_a_coating_of_the_bodys_own_material_is_none():
-    coated = figures(RIGID, {}, coating={"thickness": 0.1 * HALF_WIDTH, **STEEL})
-    assert coated == pytest.approx(plain("rigid"), abs=2e-4)
-
-
 def test_a_stiff_coating_narrows_the_contact():
     hard = {"thickness": 0.1 * HALF_WIDTH, "youngs_modulus": 400e9, "poissons_ratio": 0.2}
     change = figures(RIGID, {}, coating=hard) - plain("rigid")
