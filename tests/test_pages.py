@@ -34,7 +34,7 @@ NAMES = re.compile(r"`(\w+)`").findall
 # Words of the program's makers that no reader knows.
 PRIVATE = (
     r"\brungs?\b|comes? along|beyond doubt|best door|for who |\boutcomes?\b|takes? dolfinx"
-    r"|the whole(?= (?:is|has|on|at|was)\b)|the whole's"
+    r"|the whole(?= (?:is|has|on|at|was)\b)|the whole's|\bplaces?\b(?! of\b)"
 )
 SECTIONS = sections_of(Scene)
 
