@@ -13,6 +13,7 @@ from pydantic import (
     AfterValidator,
     BaseModel,
     ConfigDict,
+    Field,
     StrictStr,
     model_validator,
 )
@@ -186,6 +187,12 @@ Text = Annotated[StrictStr, AfterValidator(_printable)]
 Length = Annotated[float, Number(LENGTH, gt=0.0)]
 Pressure = Annotated[float, Number(PRESSURE, gt=0.0)]
 Fraction = Annotated[float, Number(DIMENSIONLESS, gt=0.0, lt=1.0)]
+
+
+def optional(description: str, **more: Any) -> Any:
+    """A field that a file may leave out, which then is None: what it is, for the reference page,
+    JSON Schema and `init`, and what else pydantic's `Field` takes."""
+    return Field(None, description=description, **more)
 
 
 class FieldError(ValueError):

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, StrictBool
 
 from comparisons.common.units import DIMENSIONLESS
-from comparisons.scenes.fields import Number, SceneSection
+from comparisons.scenes.fields import Number, SceneSection, optional
 
 BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -25,25 +25,22 @@ class FiniteElementSection(SceneSection):
         "half-plane",
         description="body of an elastic roller: a half-plane, or a sector of its disc",
     )
-    coupled: StrictBool | None = Field(
-        None,
-        description="sliding traction moves the surfaces; by default as `load.coupled`, and with "
-        "friction at finite deformation and where a body flows",
+    coupled: StrictBool | None = optional(
+        "sliding traction moves the surfaces; by default as `load.coupled`, and with "
+        "friction at finite deformation and where a body flows"
     )
     deformation: Literal["linear", "finite"] = Field(
         "linear",
         description="small, with the roughness in the gap; or finite strains of body and roller, "
         "the trace as boundary, the gap on the deformed surface",
     )
-    plastic: StrictBool | None = Field(
-        None,
-        description="the body flows at `body.yield_stress`; false: elastic bodies are the "
-        "question; without it flow is computed where it may matter",
+    plastic: StrictBool | None = optional(
+        "the body flows at `body.yield_stress`; false: elastic bodies are the "
+        "question; without it flow is computed where it may matter"
     )
-    element: Literal["P1", "P2", "P3"] | None = Field(
-        None,
-        description="degree of the displacements; by default P3 above a Poisson's ratio of 0.49 "
-        "in a linear body, else P2",
+    element: Literal["P1", "P2", "P3"] | None = optional(
+        "degree of the displacements; by default P3 above a Poisson's ratio of 0.49 "
+        "in a linear body, else P2"
     )
     block: Annotated[float, Number(DIMENSIONLESS, ge=10.0, le=5000.0)] = Field(
         BLOCK,

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from comparisons.common.units import DIMENSIONLESS
-from comparisons.scenes.fields import MOST_VALUES, Number, Pressure, SceneSection
+from comparisons.scenes.fields import MOST_VALUES, Number, Pressure, SceneSection, optional
 
 Positive = Annotated[float, Number(DIMENSIONLESS, gt=0.0)]
 Strain = Annotated[float, Number(DIMENSIONLESS, ge=0.0)]
@@ -31,15 +31,16 @@ class LudwikSection(SceneSection):
 class HardeningSection(SceneSection):
     """One isotropic law, a kinematic one, or both."""
 
-    table: Annotated[tuple[Point, ...], Field(min_length=2, max_length=MOST_VALUES)] | None = Field(
-        None,
-        description="pairs of plastic strain and stress, linear between them, constant beyond",
-        examples=[[[0, "280 MPa"], [0.05, "340 MPa"]]],
+    table: Annotated[tuple[Point, ...], Field(min_length=2, max_length=MOST_VALUES)] | None = (
+        optional(
+            "pairs of plastic strain and stress, linear between them, constant beyond",
+            examples=[[[0, "280 MPa"], [0.05, "340 MPa"]]],
+        )
     )
-    voce: VoceSection | None = Field(None, description="S − (S − Y) exp(−rate k)")
-    ludwik: LudwikSection | None = Field(None, description="Y + strength k^exponent")
-    kinematic: Pressure | None = Field(
-        None, description="the yield surface moves by so much stress per plastic strain"
+    voce: VoceSection | None = optional("S − (S − Y) exp(−rate k)")
+    ludwik: LudwikSection | None = optional("Y + strength k^exponent")
+    kinematic: Pressure | None = optional(
+        "the yield surface moves by so much stress per plastic strain"
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:

@@ -9,7 +9,7 @@ from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from analytic.profile import MAX_SAMPLES, MIN_SAMPLES
 from comparisons.common.units import DIMENSIONLESS, LENGTH
-from comparisons.scenes.fields import Length, Number, SceneSection, Several, Text, Unit
+from comparisons.scenes.fields import Length, Number, SceneSection, Several, Text, Unit, optional
 
 AUTOMATIC = "auto"
 FILTER = ("cutoff", "short_cutoff")
@@ -45,103 +45,73 @@ class ProfileSection(SceneSection):
     """Rough surface, measured (`file`) or computed (`kind`); without this table the body is smooth.
     `x_unit` or `spacing`, and one of `row`, `column` and `line`, belong to some files."""
 
-    file: Text | None = Field(
-        None, description="measured trace: the path of its file, from the scene's folder"
-    )
-    x_unit: LengthUnit | None = Field(
-        None, description="of the positions, where the file does not say"
-    )
-    z_unit: LengthUnit | None = Field(
-        None, description="of the heights, where the file does not say"
-    )
-    spacing: Length | None = Field(
-        None, description="of the samples, where the file holds heights alone"
-    )
-    columns: Columns | None = Field(
-        None,
-        description="of a table with more than x and height, by name or by number from 0",
+    file: Text | None = optional("measured trace: the path of its file, from the scene's folder")
+    x_unit: LengthUnit | None = optional("of the positions, where the file does not say")
+    z_unit: LengthUnit | None = optional("of the heights, where the file does not say")
+    spacing: Length | None = optional("of the samples, where the file holds heights alone")
+    columns: Columns | None = optional(
+        "of a table with more than x and height, by name or by number from 0",
         examples=[["x", "z"], [0, 2]],
     )
-    channel: Text | None = Field(
-        None, description="of a file with several, an array of npz, or a sheet of xlsx"
-    )
-    row: Count | None = Field(None, description="of an areal map")
-    column: Count | None = Field(None, description="of an areal map instead")
-    line: tuple[Point, Point] | None = Field(
-        None,
-        description="across an areal map instead, from one point to another",
+    channel: Text | None = optional("of a file with several, an array of npz, or a sheet of xlsx")
+    row: Count | None = optional("of an areal map")
+    column: Count | None = optional("of an areal map instead")
+    line: tuple[Point, Point] | None = optional(
+        "across an areal map instead, from one point to another",
         examples=[[["0 um", "10 um"], ["500 um", "10 um"]]],
     )
-    form: Literal["none", "mean", "line", "arc"] | None = Field(
-        None, description="taken off before the surface is pressed; `line` by default"
+    form: Literal["none", "mean", "line", "arc"] | None = optional(
+        "taken off before the surface is pressed; `line` by default"
     )
-    dropouts: Literal["refuse", "bridge"] | None = Field(
-        None,
-        description="lost heights and gaps in x: an error (by default), or put on straight lines",
+    dropouts: Literal["refuse", "bridge"] | None = optional(
+        "lost heights and gaps in x: an error (by default), or put on straight lines"
     )
-    kind: Literal["sinusoid", "self-affine", "ground", "turned"] | None = Field(
-        None, description="of a computed surface"
+    kind: Literal["sinusoid", "self-affine", "ground", "turned"] | None = optional(
+        "of a computed surface"
     )
-    wavelength: Length | None = Field(None, description="of a sinusoid")
-    amplitude: Length | None = Field(
-        None, description="half of its height from valley to crest; a crest at x = 0"
+    wavelength: Length | None = optional("of a sinusoid")
+    amplitude: Length | None = optional("half of its height from valley to crest; a crest at x = 0")
+    samples_per_wavelength: Samples | None = optional("of a sinusoid; 64 by default")
+    hurst: Share | None = optional("Hurst exponent of a self-affine surface")
+    rms_slope: Ratio | None = optional(
+        "root mean square of the slope over the whole trace; or `rms_height`"
     )
-    samples_per_wavelength: Samples | None = Field(None, description="of a sinusoid; 64 by default")
-    hurst: Share | None = Field(None, description="Hurst exponent of a self-affine surface")
-    rms_slope: Ratio | None = Field(
-        None,
-        description="root mean square of the slope over the whole trace; or `rms_height`",
+    rms_height: Length | None = optional("root mean square of the heights")
+    samples: Samples | None = optional("of the trace")
+    length: Length | None = optional(
+        "of the trace; of a sinusoid as long as the contact asks for by default, one "
+        "wavelength where it is periodic"
     )
-    rms_height: Length | None = Field(None, description="root mean square of the heights")
-    samples: Samples | None = Field(None, description="of the trace")
-    length: Length | None = Field(
-        None,
-        description="of the trace; of a sinusoid as long as the contact asks for by default, one "
-        "wavelength where it is periodic",
+    seed: Seed | None = optional("of the random numbers; 0 by default")
+    shortest_wavelength: Length | None = optional("by default 4 samples of a self-affine surface")
+    roll_off_wavelength: Length | None = optional(
+        "of a ground surface: longer waves are equally high, shorter ones lower"
     )
-    seed: Seed | None = Field(None, description="of the random numbers; 0 by default")
-    shortest_wavelength: Length | None = Field(
-        None, description="by default 4 samples of a self-affine surface"
+    longest_wavelength: Length | None = optional("by default the length of a self-affine surface")
+    decay: Ratio | None = optional(
+        "of a ground surface: amplitudes fall as k^−decay; 1.25 by default"
     )
-    roll_off_wavelength: Length | None = Field(
-        None,
-        description="of a ground surface: longer waves are equally high, shorter ones lower",
+    one_sidedness: Ratio | None = optional(
+        "of a ground surface: skewness about −3 times this; 0.3 by default"
     )
-    longest_wavelength: Length | None = Field(
-        None, description="by default the length of a self-affine surface"
+    feed: Length | None = optional("of a turned surface, per revolution; at most the nose radius")
+    nose_radius: Length | None = optional("of the tool")
+    ridge_radius: Length | None = optional("of its ridges; by default a tenth of the nose radius")
+    phase: Phase | None = optional("of the ridge at x = 0, in feeds; 0 by default")
+    samples_per_feed: Samples | None = optional("as many as the ridges ask for by default")
+    noise: Length | None = optional(
+        "root mean square of what is added to a turned surface; none by default"
     )
-    decay: Ratio | None = Field(
-        None, description="of a ground surface: amplitudes fall as k^−decay; 1.25 by default"
+    noise_wavelength: Length | None = optional(
+        "shortest of the noise; by default a tenth of the feed"
     )
-    one_sidedness: Ratio | None = Field(
-        None, description="of a ground surface: skewness about −3 times this; 0.3 by default"
+    cutoff: Length | Literal[AUTOMATIC] | None = optional(
+        "longer waves are taken off (Gaussian filter, ISO 16610-21); `auto`: as the "
+        "standard chooses"
     )
-    feed: Length | None = Field(
-        None, description="of a turned surface, per revolution; at most the nose radius"
-    )
-    nose_radius: Length | None = Field(None, description="of the tool")
-    ridge_radius: Length | None = Field(
-        None, description="of its ridges; by default a tenth of the nose radius"
-    )
-    phase: Phase | None = Field(None, description="of the ridge at x = 0, in feeds; 0 by default")
-    samples_per_feed: Samples | None = Field(
-        None, description="as many as the ridges ask for by default"
-    )
-    noise: Length | None = Field(
-        None,
-        description="root mean square of what is added to a turned surface; none by default",
-    )
-    noise_wavelength: Length | None = Field(
-        None, description="shortest of the noise; by default a tenth of the feed"
-    )
-    cutoff: Length | Literal[AUTOMATIC] | None = Field(
-        None,
-        description="longer waves are taken off (Gaussian filter, ISO 16610-21); `auto`: as the "
-        "standard chooses",
-    )
-    short_cutoff: Length | None = Field(None, description="shorter waves are taken off")
-    periodic: StrictBool | None = Field(
-        None, description="the trace is one period of an endless surface under a flat body"
+    short_cutoff: Length | None = optional("shorter waves are taken off")
+    periodic: StrictBool | None = optional(
+        "the trace is one period of an endless surface under a flat body"
     )
 
     @property

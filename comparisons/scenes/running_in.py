@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field, StrictInt
 
 from comparisons.common.units import LENGTH, LOAD
-from comparisons.scenes.fields import Length, Number, Pressure, SceneSection, Several
+from comparisons.scenes.fields import Length, Number, Pressure, SceneSection, Several, optional
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
@@ -21,17 +21,13 @@ class RunningInSection(SceneSection):
     """Running-in before the scene starts: the roller is pressed on at positions along the trace
     with the pressure capped, and what flows is taken off."""
 
-    hardness: Pressure | None = Field(
-        None, description="pressure at which asperities flow; by default the body's"
+    hardness: Pressure | None = optional("pressure at which asperities flow; by default the body's")
+    load: Annotated[float, Number(LOAD, gt=0.0)] | None = optional(
+        "during running-in; by default the scene's"
     )
-    load: Annotated[float, Number(LOAD, gt=0.0)] | None = Field(
-        None, description="during running-in; by default the scene's"
-    )
-    positions: Positions | None = Field(None, description="positions on the trace one by one")
-    stroke: Length | None = Field(
-        None, description="range of the roller about its position; or `positions`"
-    )
-    passes: Passes | None = Field(None, description="positions along the stroke; 15 by default")
+    positions: Positions | None = optional("positions on the trace one by one")
+    stroke: Length | None = optional("range of the roller about its position; or `positions`")
+    passes: Passes | None = optional("positions along the stroke; 15 by default")
     sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = Field(
         10, description="over all positions, at most"
     )

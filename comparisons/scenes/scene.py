@@ -16,7 +16,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Self
 
-from pydantic import Field, PrivateAttr, ValidationError, create_model, model_validator
+from pydantic import PrivateAttr, ValidationError, create_model, model_validator
 
 import comparisons.scenes.studies as of_studies
 from comparisons.common.cache import types_in
@@ -28,6 +28,7 @@ from comparisons.scenes.fields import (
     Text,
     file_fields,
     notes_in,
+    optional,
     plain,
 )
 from comparisons.scenes.files import find_scene, name_of, read_toml, value_of
@@ -68,7 +69,7 @@ class Origin:
 class SceneBase(SceneSection):
     """The sections that every scene may have, and how a scene is read, checked and changed."""
 
-    title: Text | None = Field(None, description="what the scene shows: heads tables and report")
+    title: Text | None = optional("what the scene shows: heads tables and report")
     roller: RollerSection
     body: BodySection
     coating: CoatingSection | None = None

@@ -29,6 +29,7 @@ from comparisons.scenes.fields import (
     Pressure,
     SceneSection,
     Several,
+    optional,
 )
 from comparisons.scenes.hardening import HardeningSection
 from comparisons.scenes.materials import ELASTIC, Solid, SolidName, kinds_like, solid_named, solids
@@ -51,11 +52,10 @@ class SolidSection(SceneSection):
     """A section that may name a solid, which a file calls its `material`."""
 
     FOLLOW = tuple(ELASTIC)
-    solid: Annotated[str, SolidName()] | None = Field(
-        None,
-        alias="material",
-        description="a solid of `crosscheck materials`: gives its moduli, its measured law and, "
+    solid: Annotated[str, SolidName()] | None = optional(
+        "a solid of `crosscheck materials`: gives its moduli, its measured law and, "
         "with `[heat]`, thermal constants; fields beside it win",
+        alias="material",
     )
 
     @model_validator(mode="before")
@@ -122,14 +122,11 @@ class MurnaghanSection(SceneSection):
 class ElasticSection(SolidSection):
     """A body and its law of elasticity at finite strains, neo-Hookean by default, or LINEAR."""
 
-    law: Literal[(LINEAR, *LAWS)] | None = Field(
-        None,
-        description="of elasticity at finite strains; of the material, else a range of published "
-        'solids; `"linear"`, of every elastic body: nothing deforms finitely',
+    law: Literal[(LINEAR, *LAWS)] | None = optional(
+        "of elasticity at finite strains; of the material, else a range of published "
+        'solids; `"linear"`, of every elastic body: nothing deforms finitely'
     )
-    murnaghan: MurnaghanSection | None = Field(
-        None, description="third-order constants, with that law"
-    )
+    murnaghan: MurnaghanSection | None = optional("third-order constants, with that law")
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.law == "murnaghan" and self.murnaghan is None:
@@ -171,22 +168,17 @@ class HubSection(SceneSection):
 class RollerSection(ElasticSection):
     """Smooth body. Over a periodic surface it is flat."""
 
-    radius: Length | None = Field(
-        None,
-        description="radius of relative curvature of the pair; needed, but over a periodic "
-        "surface, where the smooth body is flat",
+    radius: Length | None = optional(
+        "radius of relative curvature of the pair; needed, but over a periodic "
+        "surface, where the smooth body is flat"
     )
     rigid: StrictBool = Field(
         False, description="the roller keeps its shape; in place of the next two"
     )
-    youngs_modulus: Pressure | None = Field(
-        None, description="Young's modulus; needed unless `rigid`"
-    )
-    poissons_ratio: PoissonsRatio | None = Field(
-        None, description="Poisson's ratio; needed unless `rigid`"
-    )
-    support: Literal["opposite", "half disc"] | HubSection | None = Field(
-        None, description="what holds an elastic roller as a disc"
+    youngs_modulus: Pressure | None = optional("Young's modulus; needed unless `rigid`")
+    poissons_ratio: PoissonsRatio | None = optional("Poisson's ratio; needed unless `rigid`")
+    support: Literal["opposite", "half disc"] | HubSection | None = optional(
+        "what holds an elastic roller as a disc"
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -227,27 +219,21 @@ class BodySection(ElasticSection):
 
     youngs_modulus: Pressure = Field(description="Young's modulus")
     poissons_ratio: PoissonsRatio = Field(description="Poisson's ratio")
-    hardness: Pressure | None = Field(None, description="cap on the contact pressure")
-    yield_stress: Pressure | None = Field(
-        None,
-        description="in tension; the verdict then says how far beyond first flow the load is",
+    hardness: Pressure | None = optional("cap on the contact pressure")
+    yield_stress: Pressure | None = optional(
+        "in tension; the verdict then says how far beyond first flow the load is"
     )
-    hardening_modulus: Annotated[float, Number(PRESSURE, ge=0.0)] | None = Field(
-        None, description="stress per plastic strain, with `yield_stress`"
+    hardening_modulus: Annotated[float, Number(PRESSURE, ge=0.0)] | None = optional(
+        "stress per plastic strain, with `yield_stress`"
     )
-    hardening: HardeningSection | None = Field(
-        None,
-        description="another law, with `yield_stress` Y: true stress in tension over the "
-        "logarithmic plastic strain k",
+    hardening: HardeningSection | None = optional(
+        "another law, with `yield_stress` Y: true stress in tension over the "
+        "logarithmic plastic strain k"
     )
-    thickness: Length | None = Field(
-        None, description="a layer on a rigid base; without it a half-plane"
-    )
-    width: Length | None = Field(
-        None, description="a block between free sides; without it unbounded"
-    )
-    base: Literal["bonded", "frictionless"] | None = Field(
-        None, description="what holds the layer, with `thickness`; bonded by default"
+    thickness: Length | None = optional("a layer on a rigid base; without it a half-plane")
+    width: Length | None = optional("a block between free sides; without it unbounded")
+    base: Literal["bonded", "frictionless"] | None = optional(
+        "what holds the layer, with `thickness`; bonded by default"
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -286,21 +272,16 @@ class LoadSection(SceneSection):
     """Load that presses the roller on, by one of the first four fields. Sliding traction is
     friction times pressure and pulls the rough body towards +x."""
 
-    per_length: Annotated[float, Number(LOAD, gt=0.0)] | None = Field(
-        None, description="load; one of these four"
-    )
-    hertz_peak_pressure: Pressure | None = Field(
-        None, description="peak pressure that smooth bodies would have"
-    )
-    approach: Length | None = Field(None, description="of a rigid roller to a layer")
-    mean_pressure: Pressure | None = Field(None, description="of a flat body on a periodic surface")
+    per_length: Annotated[float, Number(LOAD, gt=0.0)] | None = optional("load; one of these four")
+    hertz_peak_pressure: Pressure | None = optional("peak pressure of the smooth pair")
+    approach: Length | None = optional("of a rigid roller to a layer")
+    mean_pressure: Pressure | None = optional("of a flat body on a periodic surface")
     friction: Annotated[tuple[Friction, ...], Several()] = Field(
         (0.0,), description="coefficient; several give a result for each"
     )
-    position: Annotated[float, Number(LENGTH)] | None = Field(
-        None,
-        description="of the roller's centre on the trace; the middle by default, on a periodic "
-        "surface half a period from its lowest place",
+    position: Annotated[float, Number(LENGTH)] | None = optional(
+        "of the roller's centre on the trace; the middle by default, on a periodic "
+        "surface half a period from its lowest place"
     )
     coupled: StrictBool = Field(
         False, description="sliding traction moves the surfaces in both models"
@@ -349,10 +330,9 @@ class StressSection(SceneSection):
     depth: Annotated[Extent, ExtentField()] = Field(
         Extent(1.0, in_half_widths=True), description="down to which the field reaches"
     )
-    half_range: Annotated[Extent, ExtentField()] | None = Field(
-        None,
-        description="to both sides of the roller's centre, 1.5 half-widths by default; about the "
-        "contact where that lies beyond",
+    half_range: Annotated[Extent, ExtentField()] | None = optional(
+        "to both sides of the roller's centre, 1.5 half-widths by default; about the "
+        "contact where that lies beyond"
     )
     points: tuple[Points, Points] = Field(
         (600, 200), description="along x and along z, at most 50 million in all"
@@ -370,10 +350,8 @@ class ToleranceSection(SceneSection):
     peak_pressure: Fraction = Field(USUAL, description="largest pressure")
     contact_length: Fraction = Field(USUAL, description="sum of the patches that touch")
     tau1_max: Fraction = Field(USUAL, description="largest principal shear stress")
-    tau1_max_depth: Fraction | None = Field(
-        None, description="depth of the largest principal shear stress"
-    )
-    txz_max_abs: Fraction | None = Field(None, description="largest orthogonal shear stress")
+    tau1_max_depth: Fraction | None = optional("depth of the largest principal shear stress")
+    txz_max_abs: Fraction | None = optional("largest orthogonal shear stress")
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         for name in OF_STRESS:
@@ -386,16 +364,14 @@ class ToleranceSection(SceneSection):
 class ResolutionSection(SceneSection):
     """How fine a run begins."""
 
-    pitch: Length | None = Field(None, description="of the coarsest pressure elements")
-    elements: Annotated[float, Number(DIMENSIONLESS, ge=1.0, le=1e4)] | None = Field(
-        None,
-        description="or their number on a half-width of the smooth contact; without all three as "
-        "the surface asks for",
+    pitch: Length | None = optional("of the coarsest pressure elements")
+    elements: Annotated[float, Number(DIMENSIONLESS, ge=1.0, le=1e4)] | None = optional(
+        "or their number on a half-width of the smooth contact; without all three as "
+        "the surface asks for"
     )
-    nodes: Annotated[StrictInt, Field(ge=64, le=2_000_000)] | None = Field(
-        None,
-        description="or pressures of the finest of the first levels, at least; "
-        "`--models half-plane` takes a million in seconds",
+    nodes: Annotated[StrictInt, Field(ge=64, le=2_000_000)] | None = optional(
+        "or pressures of the finest of the first levels, at least; "
+        "`--models half-plane` takes a million in seconds"
     )
     levels: Annotated[StrictInt, Field(ge=2, le=6)] = Field(3, description="to begin with")
 

@@ -5,6 +5,7 @@ example."""
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -18,6 +19,7 @@ from comparisons.common.files import write_whole
 from comparisons.common.numbers import is_whole
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
+from comparisons.scenes.fields import file_fields
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Origin, Scene, sections_of
 from comparisons.scenes.schema.messages import read_field
@@ -43,7 +45,7 @@ RADII = (
 SOLID = {"material": "rail steel"}  # its law of elasticity was measured
 STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}  # where one of them is given
 PEAK = {"hertz_peak_pressure": "1 GPa"}
-EXAMPLE = "an example: put in yours"
+EXAMPLE = "an example, put in yours"
 HEAD = """\
 # A scene for crosscheck. Numbers are in SI units, text carries its unit. All other fields:
 # comparisons/docs/scene_fields.md.
@@ -171,14 +173,16 @@ def scene_text(
     """The text of a scene file.
 
     values  by section and field
-    notes   by field: a remark"""
+    notes   by field: a remark, in place of what the field is; EXAMPLE stands beside that"""
     lines = [HEAD, f"title = {toml(title)}"]
     for section, fields in JUDGED.items():
         shown = ", ".join(f"{name} = {toml(value)}" for name, value in fields.items())
         lines.append(f"{section} = {{{shown}}}")
     for section, fields in values.items():
+        described = file_fields(sections_of(Scene)[section])
         lines += ["", f"[{section}]"]
         for name, value in fields.items():
-            note = f"  # {one_line(notes[name])}" if name in notes else ""
-            lines.append(f"{name} = {toml(value)}{note}")
+            note, what = notes.get(name), re.split("[:;,]", described[name].description)[0]
+            note = f"{what}: {EXAMPLE}" if note == EXAMPLE else note or what
+            lines.append(f"{name} = {toml(value)}  # {one_line(note)}")
     return "\n".join(lines) + "\n"

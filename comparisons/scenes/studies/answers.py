@@ -27,6 +27,7 @@ from comparisons.scenes.fields import (
     Several,
     Text,
     Unit,
+    optional,
 )
 from comparisons.scenes.files import read_toml
 from comparisons.scenes.header_units import unit_of_column
@@ -41,8 +42,8 @@ Offset = Annotated[float, Number(LENGTH)]
 class UnitsSection(SceneSection):
     """Units of a file; those of SI where not named."""
 
-    length: Annotated[str, Unit(LENGTH)] | None = Field(None, description="of positions")
-    stress: Annotated[str, Unit(PRESSURE)] | None = Field(None, description="of stresses")
+    length: Annotated[str, Unit(LENGTH)] | None = optional("of positions")
+    stress: Annotated[str, Unit(PRESSURE)] | None = optional("of stresses")
 
 
 class AnswerSection(SceneSection):
@@ -58,34 +59,31 @@ class AnswerSection(SceneSection):
         description="of a table: x and pressure, by name or by number from 0",
         examples=[["x", "p"], [0, 2]],
     )
-    shear: Columns | None = Field(
-        None,
-        description="beside `[partial_slip]`: the column of a table, or the array of a mesh such "
+    shear: Columns | None = optional(
+        "beside `[partial_slip]`: the column of a table, or the array of a mesh such "
         'as `"-CONTACT.4"`, that holds the traction on the body towards +x, after a minus its '
-        "opposite; by default the stress on a mesh's top",
+        "opposite; by default the stress on a mesh's top"
     )
-    units: UnitsSection | None = Field(
-        None, description="of the file; by default those that a table's columns name, else SI"
+    units: UnitsSection | None = optional(
+        "of the file; by default those that a table's columns name, else SI"
     )
-    up: Literal["y", "-y", "z", "-z"] | None = Field(
-        None,
-        description="axis of the file out of the rough body, with its sign; found by default: the "
-        "body reaches far to one side",
+    up: Literal["y", "-y", "z", "-z"] | None = optional(
+        "axis of the file out of the rough body, with its sign; found by default: the "
+        "body reaches far to one side"
     )
     x_origin: Offset = Field(0.0, description="where the scene's origin lies in the file")
     z_origin: Offset = Field(0.0, description="the same along `up`")
-    pressure: Text | None = Field(
-        None,
-        description='array of a mesh that holds the pressure, such as `"CONTACT.3"`; by default '
-        "minus the normal stress on the body's top",
+    pressure: Text | None = optional(
+        'array of a mesh that holds the pressure, such as `"CONTACT.3"`; by default '
+        "minus the normal stress on the body's top"
     )
-    step: Annotated[StrictInt, Field(ge=0, le=10**6)] | None = Field(
-        None, description="of several in time; the last by default"
+    step: Annotated[StrictInt, Field(ge=0, le=10**6)] | None = optional(
+        "of several in time; the last by default"
     )
-    friction: Annotated[float, Number(DIMENSIONLESS, ge=0.0)] | None = Field(
-        None, description="coefficient, where the scene has several"
+    friction: Annotated[float, Number(DIMENSIONLESS, ge=0.0)] | None = optional(
+        "coefficient, where the scene has several"
     )
-    scatter: Fraction | None = Field(None, description="of measured data, relative")
+    scatter: Fraction | None = optional("of measured data, relative")
 
     def unit(self, kind: str, column: str = "") -> float:
         """In SI, that of a length or a stress: as `units` has it, else as the column's name does,

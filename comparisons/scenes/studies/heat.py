@@ -15,7 +15,7 @@ from comparisons.common.units import (
     SPEED,
     TEMPERATURE,
 )
-from comparisons.scenes.fields import Fraction, Length, Number, SceneSection
+from comparisons.scenes.fields import Fraction, Length, Number, SceneSection, optional
 from comparisons.scenes.materials import solid_named
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, gt=0.0)]
@@ -42,29 +42,25 @@ class HeatSection(SceneSection):
     roller_conductivity: Conductivity = Field(description="of the roller")
     roller_density: Density = Field(description="of the roller")
     roller_specific_heat: SpecificHeat = Field(description="of the roller")
-    coating_conductivity: Conductivity | None = Field(None, description="needed with `[coating]`")
-    coating_density: Density | None = Field(None, description="needed with `[coating]`")
-    coating_specific_heat: SpecificHeat | None = Field(None, description="needed with `[coating]`")
+    coating_conductivity: Conductivity | None = optional("needed with `[coating]`")
+    coating_density: Density | None = optional("needed with `[coating]`")
+    coating_specific_heat: SpecificHeat | None = optional("needed with `[coating]`")
     bulk_temperature: Annotated[float, Number(TEMPERATURE, ge=0.0)] = Field(
         293.15, description="of both bodies [K]"
     )
-    base: Literal["held", "insulated"] | None = Field(
-        None,
-        description="of a body with `thickness`: at the bulk temperature (by default) or insulated",
+    base: Literal["held", "insulated"] | None = optional(
+        "of a body with `thickness`: at the bulk temperature (by default) or insulated"
     )
-    reach: Length | None = Field(
-        None,
-        description="from the contact to where a body at rest, and the disc, has the bulk "
-        "temperature; by default the roller's radius",
+    reach: Length | None = optional(
+        "from the contact to where a body at rest, and the disc, has the bulk "
+        "temperature; by default the roller's radius"
     )
     tolerance: Fraction = Field(0.05, description="of temperatures and thermal stresses")
     stresses: StrictBool = Field(
         False, description="add the thermal stresses of the body; needs `[stress]`"
     )
-    body_expansion: Expansion | None = Field(None, description="needed with `stresses`")
-    coating_expansion: Expansion | None = Field(
-        None, description="needed with `stresses` and `[coating]`"
-    )
+    body_expansion: Expansion | None = optional("needed with `stresses`")
+    coating_expansion: Expansion | None = optional("needed with `stresses` and `[coating]`")
 
     @classmethod
     def followed(cls, tables: Mapping) -> Mapping:

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field, StrictInt
 
 from comparisons.common.units import DIMENSIONLESS, PRESSURE
-from comparisons.scenes.fields import Fraction, Number, SceneSection, Several
+from comparisons.scenes.fields import Fraction, Number, SceneSection, Several, optional
 
 Share = Annotated[float, Number(DIMENSIONLESS, gt=-1.0, lt=1.0)]
 
@@ -15,15 +15,11 @@ class PartialSlipSection(SceneSection):
     """Tangential load that does not make the contact slide, at small strains; it needs
     `load.friction` above 0."""
 
-    load: Fraction | None = Field(
-        None,
-        description="tangential load on the body towards +x, over friction times normal load; or "
-        "`loads`",
+    load: Fraction | None = optional(
+        "tangential load on the body towards +x, over friction times normal load; or `loads`"
     )
-    loads: Annotated[tuple[Share, ...], Several(repeated=True)] | None = Field(
-        None,
-        description="several, one after the other; 0 alone presses unlike bodies, which friction "
-        "holds",
+    loads: Annotated[tuple[Share, ...], Several(repeated=True)] | None = optional(
+        "several, one after the other; 0 alone presses unlike bodies, which friction holds"
     )
     bulk_stress: Annotated[float, Number(PRESSURE)] = Field(
         0.0,

@@ -9,7 +9,7 @@ from pydantic import Field, StrictBool
 from comparisons.common.numbers import significant
 from comparisons.common.units import LENGTH, PRESSURE, UnitError, to_si, unit_in_si
 from comparisons.figures.quantity import HYPHENATED
-from comparisons.scenes.fields import Fraction, SceneSection, Text
+from comparisons.scenes.fields import Fraction, SceneSection, Text, optional
 
 DIGITS = 5  # of ours
 LOWERING = "lowering"  # of the body's surface under the roller's centre, against its base
@@ -32,12 +32,11 @@ class PublishedSection(SceneSection):
     value: Text = Field(
         description="the figure: a number and its unit, as printed", examples=["3585.4 MPa"]
     )
-    scatter: Fraction | None = Field(
-        None,
-        description="of what is published, relative; by default half a unit of the last digit",
+    scatter: Fraction | None = optional(
+        "of what is published, relative; by default half a unit of the last digit"
     )
-    model: Literal[tuple(HYPHENATED.values())] | None = Field(
-        None, description="which of ours is judged by it; by default the last that is run"
+    model: Literal[tuple(HYPHENATED.values())] | None = optional(
+        "which of ours is judged by it; by default the last that is run"
     )
     source: Text = Field(description="document and page")
     read: StrictBool = Field(True, description="whether the source itself was read")
@@ -45,9 +44,7 @@ class PublishedSection(SceneSection):
         False,
         description="shown, and not judged, because its own source speaks against it; needs `note`",
     )
-    note: Text | None = Field(
-        None, description="what a reader should know, or why the figure is doubtful"
-    )
+    note: Text | None = optional("what a reader should know, or why the figure is doubtful")
 
     @property
     def size(self) -> float:

@@ -8,7 +8,15 @@ from typing import Annotated
 from pydantic import Field, StrictInt
 
 from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, Dimension, describe
-from comparisons.scenes.fields import WITH_UNIT, FieldType, Length, Number, SceneSection, in_si
+from comparisons.scenes.fields import (
+    WITH_UNIT,
+    FieldType,
+    Length,
+    Number,
+    SceneSection,
+    in_si,
+    optional,
+)
 from comparisons.scenes.schema.messages import read_field
 
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
@@ -117,21 +125,17 @@ class ScatterSection(SceneSection):
         64, description="of each of two designs by Sobol's sequence; a power of two"
     )
     seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of the samples")
-    roller_radius: LengthSpread | None = Field(None, description="radius of the roller")
-    roller_youngs_modulus: Modulus | None = Field(None, description="its Young's modulus")
-    roller_poissons_ratio: Ratio | None = Field(None, description="its Poisson's ratio")
-    body_youngs_modulus: Modulus | None = Field(None, description="Young's modulus of the body")
-    body_poissons_ratio: Ratio | None = Field(None, description="its Poisson's ratio")
-    load: Relative | None = Field(None, description="load")
-    friction: Ratio | None = Field(None, description="the scene's one coefficient")
-    position: Position | None = Field(None, description="of the roller on the trace")
-    noise: Length | None = Field(
-        None, description="standard deviation of what is added to the heights"
-    )
-    correlation_length: Length | None = Field(None, description="of the noise; white by default")
-    tip_radius: Range | None = Field(
-        None, description="of the stylus: crests sharper than the tip are rounded"
-    )
+    roller_radius: LengthSpread | None = optional("radius of the roller")
+    roller_youngs_modulus: Modulus | None = optional("its Young's modulus")
+    roller_poissons_ratio: Ratio | None = optional("its Poisson's ratio")
+    body_youngs_modulus: Modulus | None = optional("Young's modulus of the body")
+    body_poissons_ratio: Ratio | None = optional("its Poisson's ratio")
+    load: Relative | None = optional("load")
+    friction: Ratio | None = optional("the scene's one coefficient")
+    position: Position | None = optional("of the roller on the trace")
+    noise: Length | None = optional("standard deviation of what is added to the heights")
+    correlation_length: Length | None = optional("of the noise; white by default")
+    tip_radius: Range | None = optional("of the stylus: crests sharper than the tip are rounded")
 
     @property
     def inputs(self) -> dict[str, Spread]:

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, StrictInt
 
-from comparisons.scenes.fields import Length, SceneSection, Several
+from comparisons.scenes.fields import Length, SceneSection, Several, optional
 
 METALS = ("ferrous", "nonferrous")
 
@@ -18,8 +18,8 @@ class StatisticsSection(SceneSection):
         8, description="random ones with the profile's spectrum that are solved"
     )
     seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of these traces")
-    cutoffs: Annotated[tuple[Length, ...], Several()] | None = Field(
-        None, description="filters under which summits are counted; chosen by default"
+    cutoffs: Annotated[tuple[Length, ...], Several()] | None = optional(
+        "filters under which summits are counted; chosen by default"
     )
     metal: Literal[METALS] = Field(
         METALS[0], description="of the body: h/R up to which an asperity is elastic"

@@ -318,7 +318,7 @@ def test_a_scene_is_short_and_says_what_is_guessed_and_what_is_an_example(folder
     lines = made.path.read_text().splitlines()
     assert 15 <= len(lines) <= 25 and max(map(len, lines)) <= 100
     said = dict(line.partition(" = ")[::2] for line in lines if "  # " in line)
-    assert said.keys() == {*made.examples, *made.profile.reasons}
+    assert {*made.examples, *made.profile.reasons, "file", "friction"} == said.keys()
     assert all(EXAMPLE in said[name] for name in made.examples)
     assert all(why in said[name] for name, why in made.profile.reasons.items())
     for part in made.scene.elastic_sections.values():
