@@ -1,12 +1,12 @@
 """The half-plane's assumptions, each as an effect that finite elements may contain.
 
 An effect is one entry of EFFECTS: how a scene is given it, and how much it may change. A scene is
-reduced to what the half-plane assumes (`plain`) and given any effects (`with_effects`): so each is
+reduced to what the half-plane assumes and given any effects (`with_effects`): so each is
 measured alone, and all are computed that may matter. Finite deformation is one effect: at finite
 strain the gap is on the deformed surface and the trace is the boundary."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 
 from comparisons.figures.figure import SHARED
@@ -24,10 +24,14 @@ from comparisons.judging.effects.estimates import (
     roller_support,
     why_no_flow,
 )
+from comparisons.judging.effects.laws import OpenLaw
+from comparisons.models.model import Model
 from comparisons.models.problem import COUPLED, Problem
 from comparisons.scenes.finite_element import FiniteElementSection
 from comparisons.scenes.scene import Scene
+from comparisons.scenes.sections import MurnaghanSection
 
+STRAINED = "P2"  # elements of finite deformation
 FINITE, FLOW = "finite_strain", "plastic_flow"
 LAW, SAMPLING = "law_of_elasticity", SHARED
 SMALL_STRAINS = "flow is taken at small strains"
@@ -155,7 +159,7 @@ def why_not(name: str, problem: Problem, flows: bool = False) -> str | None:
 def contained(scene: Scene) -> frozenset[str]:
     """Names of the effects that the scene's own finite elements have, and its half-plane has
     not."""
-    bare = plain(scene)
+    bare = with_effects(scene, ())
     return frozenset(n for n, effect in EFFECTS.items() if effect.is_in(scene) > effect.is_in(bare))
 
 
@@ -164,13 +168,8 @@ def is_taken_apart(scene: Scene) -> bool:
     return with_effects(scene, contained(scene)).tables == scene.tables
 
 
-def plain(scene: Scene) -> Scene:
-    """The scene as the half-plane assumes it."""
-    return with_effects(scene, ())
-
-
 def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
-    """The scene with the named effects and no others."""
+    """The scene with the named effects and no others; without any as the half-plane assumes it."""
     return scene.unchecked(fields_with(scene, names))
 
 
@@ -186,3 +185,47 @@ def fields_with(scene: Scene, names: Iterable[str]) -> dict[str, object]:
         if name in names:
             fields |= effect.given_by(scene)
     return fields
+
+
+def model_with(
+    problem: Problem,
+    effects: frozenset[str],
+    friction: float | None = None,
+    quadratic: bool = False,
+) -> Model:
+    """With the effects and no others. An unbounded body is larger than the scene's, whose size it
+    lacks.
+
+    friction   the coefficient that shapes its pressures; None: they are the same for all
+    quadratic  its elements are those that finite deformation takes"""
+    scene, words = problem.scene, sorted(effect.replace("_", "-") for effect in effects) or ["none"]
+    sets, at = fields_with(scene, effects), ""
+    if friction is not None:
+        sets["load.friction"], at = (friction,), f"@{friction:g}"
+    if quadratic:
+        sets["finite_element.element"] = STRAINED
+        words.append("quadratic")
+    lacking = (EFFECTS[name].beyond for name in contained(scene) - effects)
+    labels = ", ".join(EFFECTS[name].label for name in sorted(effects)) or "no effect"
+    return Model(
+        f"effect-{'+'.join(words)}{at}",
+        "finite elements",
+        effects,
+        label=f"with {labels}",
+        sets=sets,
+        least_block=max((beyond(scene) for beyond in lacking if beyond), default=0.0),
+    )
+
+
+def law_variants(whole: Model, laws: tuple[OpenLaw, ...]) -> dict[tuple[int, str], Model]:
+    """The whole with each probe, by place in `laws` and the probe's name."""
+    variants = {}
+    for number, open_law in enumerate(laws):
+        for probe, law in open_law.probes.items():
+            named, sets = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True)), {}
+            constants = named and MurnaghanSection(**named)
+            for body in open_law.bodies:
+                sets |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
+            words = f"{whole.name}-as-{'-and-'.join(open_law.bodies)}-{'-'.join(probe.split())}"
+            variants[number, probe] = replace(whole, name=words, sets=whole.sets | sets)
+    return variants

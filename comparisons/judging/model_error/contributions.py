@@ -14,9 +14,15 @@ in the interaction. The scene's own finite elements do not contain F(W) - F(scen
 
 from dataclasses import dataclass, replace
 
-from comparisons.judging.effects.catalogue import EFFECTS, FLOW, NONLINEAR
+from comparisons.judging.effects.catalogue import (
+    EFFECTS,
+    FLOW,
+    NONLINEAR,
+    STRAINED,
+    law_variants,
+    model_with,
+)
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import STRAINED, law_variants, model_with
 from comparisons.models.model import Model
 from comparisons.models.plan import LONGER
 from comparisons.models.problem import COUPLED, Problem

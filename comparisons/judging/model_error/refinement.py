@@ -17,9 +17,9 @@ from comparisons.judging.effects.catalogue import (
     NONLINEAR,
     contained,
     is_taken_apart,
+    model_with,
 )
 from comparisons.judging.effects.selection import ASKED, EffectSelection
-from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     split_variants,

@@ -9,8 +9,8 @@ from operator import sub
 import numpy as np
 import pytest
 
+from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
     split_variants,

@@ -10,8 +10,8 @@ import pytest
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
+from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.effects.variants import model_with
 from comparisons.judging.model_error.contributions import (
     NotComputedError,
 )
