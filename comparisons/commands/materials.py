@@ -1,5 +1,6 @@
 """`crosscheck materials`: the solids that a scene may name, each number with its source."""
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument
@@ -38,40 +39,13 @@ def materials(
 
 def entry_of(solid: "Solid") -> dict:
     """A solid as JSON has it: SI, None for what is not known."""
-    from comparisons.scenes.materials import sources
+    from comparisons.scenes.materials import DIMENSIONS, sources
 
-    law = solid.law
-    return {
-        "name": solid.name,
-        "aliases": list(solid.aliases),
-        "alias_sources": list(solid.alias_sources),
-        "class": solid.kind,
-        "description": solid.description,
-        "values": {key: _value(key, value) for key, value in solid.values.items()},
-        "law": None if law is None else law.name,
-        "third_order": law and law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True)),
-        "third_order_errors": law
-        and law.standard_errors
-        and dict(zip("lmn", law.standard_errors, strict=True)),
-        "third_order_sources": list(solid.law_sources),
-        "missing": solid.missing,
-        "bounded_by": _bounds(solid),
-        "typical": {key: _value(key, value) for key, value in solid.typical.items()},
-        "note": solid.note,
-        "sources": {key: sources()[key] for key in _keys(solid)},
-    }
-
-
-def _value(key: str, value: "Value") -> dict:
-    from comparisons.scenes.materials import DIMENSIONS
-
-    return {
-        "value": value.value,
-        "unit": DIMENSIONS[key].si_unit,
-        "error": value.error,
-        "span": value.span and list(value.span),
-        "sources": list(value.sources),
-    }
+    entry = asdict(solid)
+    for name, value in (entry["values"] | entry["typical"]).items():
+        value["unit"] = DIMENSIONS[name].si_unit
+    known = {key: sources()[key] for key in _keys(solid)}
+    return entry | {"bounded_by": _bounds(solid), "sources": known}
 
 
 def _bounds(solid: "Solid") -> list[str]:
@@ -127,32 +101,28 @@ def page(solid: "Solid") -> "Table":
 
     from comparisons.scenes.materials import sources
 
+    measured, bounds = ", ".join(solid.law_sources), " and ".join(_bounds(solid))
+    law = "not known" if solid.law is None else solid.law.name
+    constants = zip("lmn", _constants(solid)[:3], strict=True)
+    rows = [
+        ("solid", solid.name, ""),
+        ("other names", ", ".join(solid.aliases), ", ".join(solid.alias_sources)),
+        ("class", solid.kind, solid.description),
+        *((key, _shown(key, v), ", ".join(v.sources)) for key, v in solid.values.items()),
+        *((name, f"{cell} GPa", measured) for name, cell in constants if solid.has_constants),
+        *([] if solid.has_constants else [("law", law, solid.missing or measured)]),
+        ("its bounds", "", bounds and f"{bounds}, scaled to its shear modulus"),
+        *(
+            (key, _shown(key, v), f"typical, never filled in; {', '.join(v.sources)}")
+            for key, v in solid.typical.items()
+        ),
+        ("note", "", solid.note),
+        *((key, "", sources()[key]) for key in _keys(solid)),
+    ]
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
-
-    def add(*cells: str) -> None:
-        table.add_row(*map(Text, cells))  # in a Text brackets are no markup
-
-    add("solid", solid.name, "")
-    if solid.aliases:
-        add("other names", ", ".join(solid.aliases), ", ".join(solid.alias_sources))
-    add("class", solid.kind, solid.description)
-    for key, value in solid.values.items():
-        add(key, _shown(key, value), ", ".join(value.sources))
-    for name, cell in zip("lmn", _constants(solid)[:3], strict=True):
-        if solid.has_constants:
-            add(name, f"{cell} GPa", ", ".join(solid.law_sources))
-    if not solid.has_constants:
-        law = "not known" if solid.law is None else solid.law.name
-        add("law", law, solid.missing or ", ".join(solid.law_sources))
-    if bounds := _bounds(solid):
-        add("its bounds", "", f"{' and '.join(bounds)}, scaled to its shear modulus")
-    for key, value in solid.typical.items():
-        words = "typical, never filled in; " + ", ".join(value.sources)
-        add(key, _shown(key, value), words)
-    if solid.note:
-        add("note", "", solid.note)
-    for key in _keys(solid):
-        add(key, "", sources()[key])
+    for row in rows:
+        if any(row[1:]):
+            table.add_row(*map(Text, row))  # in a Text brackets are no markup
     return table
 
 

@@ -2,9 +2,8 @@
 profile, `deck` hands one to another code."""
 
 import sys
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from typer import Argument, Option
 
@@ -17,22 +16,10 @@ from comparisons.commands.arguments import (
     path_option,
     scene_with,
 )
-from comparisons.commands.output import show, show_either, show_json
-from comparisons.common.errors import ExitStatus, InputError
-
-if TYPE_CHECKING:
-    from comparisons.campaigns.init.show import FirstScene
+from comparisons.commands.output import show_either, show_json
+from comparisons.common.errors import ExitStatus
 
 Code = Literal["calculix", "fenicsx"]
-# What no trace shows, by the option of `init`: those that stand for it, too, and what is asked.
-QUESTIONS = {
-    "radius": ((), 'Radius of the roller, such as "8.2 mm"'),
-    "load": (("peak_pressure",), 'Load per length, such as "3.85 N/um"'),
-    "material": (
-        ("youngs_modulus", "poissons_ratio"),
-        "Solid of both bodies, by its name in crosscheck materials",
-    ),
-}
 
 
 def scenes(
@@ -106,54 +93,18 @@ def init(
     options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
     options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
     options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
-    options["material"] = material
-    ask = _asked if sys.stdin.isatty() and sys.stdout.isatty() and not yes | as_json else dict
-    made = write_first_scene(profile, out, options, force, picture, ask)
-    if as_json:
-        show_json(made.as_dict())
-    else:
-        _say(made)
-    return ExitStatus.DONE
+    options |= {"material": material}
+    asks = sys.stdin.isatty() and sys.stdout.isatty() and not (yes or as_json)
+    made = write_first_scene(profile, out, options, force, picture, _ask if asks else None)
+    show_either(as_json, made.as_dict, made.tables)
+    return made.exit_status
 
 
-def _say(made: "FirstScene") -> None:
-    """What was seen in the profile, the examples beside what was given, and the half-plane's answer
-    on the coarsest level."""
-    from comparisons.campaigns.init.show import first_lines, init_table
-    from comparisons.output.terminal import PLAIN
-
-    show(init_table(made))
-    assumed = [
-        f"{section}.{name} = {value}"
-        for section in ("roller", "body", "load")
-        for name, value in made.scene.written[section].items()
-        if name in made.examples
-    ]
-    if assumed:
-        print(f"assumed as examples, put in yours: {', '.join(assumed)}")
-    for line in first_lines(made.scene):
-        print(line.translate(PLAIN))
-
-
-def _asked(options: Mapping[str, str | int | None]) -> dict[str, str | int | None]:
-    """The options, with what a user at the terminal says of what no trace shows."""
-    from comparisons.campaigns.init.first_scene import sections_of_options
-
-    answers = dict(options)
-    for name, (others, question) in QUESTIONS.items():
-        while all(answers[other] is None for other in (name, *others)):
-            try:
-                said = input(f"{question} (Enter: an example): ").strip()
-                sections_of_options({name: said or None})
-            except InputError as error:
-                print(error)
-                continue
-            except EOFError:
-                raise KeyboardInterrupt from None
-            if not said:
-                break
-            answers[name] = said
-    return answers
+def _ask(question: str) -> str:
+    try:
+        return input(question)
+    except EOFError:
+        raise KeyboardInterrupt from None
 
 
 def deck(

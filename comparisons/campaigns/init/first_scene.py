@@ -36,6 +36,15 @@ OPTIONS = {
     "poissons_ratio": (("roller", "poissons_ratio"), ("body", "poissons_ratio")),
     "hardness": (("body", "hardness"),),
 }
+# What no trace shows, by its option: those that stand for it, too, and what is asked.
+QUESTIONS = {
+    "radius": ((), 'Radius of the roller, such as "8.2 mm"'),
+    "load": (("peak_pressure",), 'Load per length, such as "3.85 N/um"'),
+    "material": (
+        ("youngs_modulus", "poissons_ratio"),
+        "Solid of both bodies, by its name in crosscheck materials",
+    ),
+}
 EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"), ("load", "peak_pressure"))
 # Of the roller, largest first: the contact must stay on the trace.
 RADII = (
@@ -89,7 +98,7 @@ def write_first_scene(
     options: Options | None = None,
     force: bool = False,
     draw: bool = False,
-    ask: Callable[[Options], Options] = dict,
+    ask: Callable[[str], str] | None = None,
 ) -> FirstScene:
     """Write a scene for the profile in a file.
 
@@ -97,7 +106,7 @@ def write_first_scene(
     options  of `crosscheck init` that set fields: in place of guesses and examples
     force    replace the scene's file, and the picture's
     draw     a picture of the trace beside the scene, as SVG
-    ask      completes the options once the profile is read
+    ask      answers questions about what no trace shows, with nothing for an example
     Raises InputError, and writes nothing, where an option, profile or place for the scene cannot be
     used."""
     options = options or {}
@@ -109,13 +118,30 @@ def write_first_scene(
     for place in filter(None, (out, drawn)):
         _check_place(profile, place, force)
     fields = fields_of_profile(profile, read_by)
-    values, examples = _values(sections_of_options(ask(options)))
+    values, examples = _values(sections_of_options(_completed(options, ask) if ask else options))
     values["profile"] = {"file": os.path.relpath(profile, out.parent), **fields.fields}
     text, problem = _fitting(profile, out, values, {**fields.reasons, **examples})
     write_whole(out, text)
     if drawn is not None:
         write_whole(drawn, picture(problem.surface))
     return FirstScene(out, drawn, problem.scene, problem.surface, fields, tuple(examples))
+
+
+def _completed(options: Options, ask: Callable[[str], str]) -> Options:
+    """The options, with what is answered to QUESTIONS; one whose answer is wrong comes again."""
+    known = dict(options)
+    for name, (others, question) in QUESTIONS.items():
+        while all(known.get(option) is None for option in (name, *others)):
+            said = ask(f"{question} (Enter: an example): ").strip()
+            try:
+                sections_of_options({name: said or None})
+            except InputError as error:
+                question = f"{error}\n{QUESTIONS[name][1]}"
+                continue
+            if not said:
+                break
+            known[name] = said
+    return known
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:

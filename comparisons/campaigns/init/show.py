@@ -16,9 +16,9 @@ from comparisons.drawing.style import WIDE, drawing, figure, svg
 from comparisons.drawing.tables import figure_table
 from comparisons.output.page.tables.problem import roughness_notes
 from comparisons.output.plausibility import warnings_about_surface
-from comparisons.output.terminal import PLAIN, plain_table, plain_text
+from comparisons.output.terminal import PLAIN, Printed, plain_table, plain_text
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface
+from comparisons.scenes.surface import ProfileInfo, SceneSurface
 from comparisons.studies.problem import QUANTITIES, figures_of_surface
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ DECADES = 12  # of the spectrum below its largest value; what is lower is roundi
 POINTS = 4000  # of a drawn curve; more cannot be told apart
 
 
-@dataclass(frozen=True)
-class FirstScene:
+@dataclass(frozen=True, repr=False)
+class FirstScene(Printed):
     """A scene file that was written, what it says, how its profile is read, a picture, and the
     fields that are examples."""
 
@@ -59,39 +59,55 @@ class FirstScene:
             "roller_radius": self.scene.roller.radius,
         }
 
+    @property
+    def assumed(self) -> str:
+        """The fields that are examples, with their values."""
+        return ", ".join(
+            f"{section}.{name} = {value}"
+            for section in ("roller", "body", "load")
+            for name, value in self.scene.written[section].items()
+            if name in self.examples
+        )
 
-def init_table(made: FirstScene) -> "RenderableType":
-    """How the profile was read, its roughness, what is doubtful or guessed, and what to do next."""
-    from rich.console import Group
-    from rich.text import Text
+    def tables(self) -> "RenderableType":
+        """How the profile was read, its roughness, what is doubtful, guessed or an example, what to
+        do next, and the half-plane's answer on the coarsest level."""
+        from rich.console import Group
+        from rich.text import Text
 
-    info = made.surface.info
-    read = f"{info.source}: {info.format}, {info.samples} samples, "
+        info = self.surface.info
+        shown = figure_table(figures_of_surface(info), QUANTITIES)
+        table = plain_table("roughness", numbers=shown.head[1:], rows=shown.rows)
+        guesses = (
+            f"{name} = {json.dumps(self.profile.fields[name], ensure_ascii=False)}: {because}"
+            for name, because in self.profile.reasons.items()
+        )
+        ends = ["", f"scene   {self.path}"]
+        ends += [] if self.picture is None else [f"picture {self.picture}"]
+        warnings = (f"plausibility warning: {text}" for text in warnings_about_surface(info))
+        assumed = [f"assumed as examples, put in yours: {self.assumed}"] if self.assumed else []
+        return Group(
+            Text(_reading(info).translate(PLAIN), style="bold"),
+            *([Text(info.place)] if info.place else []),
+            "",
+            table,
+            "",
+            *(plain_text(f"{name}: {text}") for name, text in roughness_notes(info)),
+            "",
+            *(Text(line.translate(PLAIN)) for line in warnings),
+            *map(Text, (*guesses, *ends, f"next    crosscheck run {self.path}", *assumed)),
+            *(Text(line.translate(PLAIN)) for line in first_lines(self.scene)),
+        )
+
+
+def _reading(info: ProfileInfo) -> str:
+    """How a profile was read, in a line."""
     steps = np.diff(info.trace.x)
     least, most = float(steps.min()), float(steps.max())
     even = most - least <= UNEVEN * info.spacing
     apart = _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
-    read += f"{_length(info.length)} long, {apart} apart"
-    shown = figure_table(figures_of_surface(info), QUANTITIES)
-    table = plain_table("roughness", numbers=shown.head[1:], rows=shown.rows)
-    guesses = (
-        f"{name} = {json.dumps(made.profile.fields[name], ensure_ascii=False)}: {because}"
-        for name, because in made.profile.reasons.items()
-    )
-    ends = ["", f"scene   {made.path}"]
-    ends += [] if made.picture is None else [f"picture {made.picture}"]
-    warnings = (f"plausibility warning: {text}" for text in warnings_about_surface(info))
-    return Group(
-        Text(read.translate(PLAIN), style="bold"),
-        *([Text(info.place)] if info.place else []),
-        "",
-        table,
-        "",
-        *(plain_text(f"{name}: {text}") for name, text in roughness_notes(info)),
-        "",
-        *(Text(line.translate(PLAIN)) for line in warnings),
-        *map(Text, (*guesses, *ends, f"next    crosscheck run {made.path}")),
-    )
+    read = f"{info.source}: {info.format}, {info.samples} samples, "
+    return f"{read}{_length(info.length)} long, {apart} apart"
 
 
 def first_lines(scene: Scene) -> tuple[str, str]:

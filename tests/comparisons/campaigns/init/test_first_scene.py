@@ -328,7 +328,7 @@ def test_a_scene_is_short_and_says_what_is_guessed_and_what_is_an_example(folder
 def test_a_terminal_asks_for_what_no_trace_shows(folder, monkeypatch, capsys):
     (folder / "trace.csv").write_text(rows(X, Z))
     answers = ["8 N", '"8 mm"', "", "no such steel", "42CrMo4"]
-    monkeypatch.setattr("builtins.input", lambda question: answers.pop(0))
+    monkeypatch.setattr("builtins.input", lambda question: print(question) or answers.pop(0))
     for stream in (sys.stdin, sys.stdout):
         monkeypatch.setattr(stream, "isatty", lambda: True)
     assert main(["init", "trace.csv"]) == 0
