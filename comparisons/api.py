@@ -37,13 +37,14 @@ if TYPE_CHECKING:
 
 AnyScene = Scene | Mapping | str | os.PathLike
 """A scene, its tables, its name or its path."""
+Tolerance = float | str | None
 
 
 def run(
     scene: AnyScene,
     models: str | Sequence[str] = MODELS,
     *,
-    tolerance: float | None = None,
+    tolerance: Tolerance = None,
     law: str | None = None,
     out: str | os.PathLike | None = None,
     files: bool = True,
@@ -53,7 +54,7 @@ def run(
     """Solve a scene, compare the models, judge: what `crosscheck run` does.
 
     models     half-plane, finite-element, or both
-    tolerance  relative, of all that is judged, in place of the scene's own
+    tolerance  relative, such as 0.05 or "5%", of all that is judged, in place of the scene's own
     law        of elasticity, of every elastic body, in place of their own
     out        folder for the files of the run; None writes none
     files      whether they are written now, or left to `write`: until then what is solved is kept
@@ -105,7 +106,7 @@ def plan(
     scene: AnyScene,
     models: str | Sequence[str] = MODELS,
     *,
-    tolerance: float | None = None,
+    tolerance: Tolerance = None,
     law: str | None = None,
 ) -> list[str]:
     """Say what `run` would do, and how long it would take, in lines."""
@@ -277,7 +278,7 @@ def deck(
     return made
 
 
-def scene_of(scene: AnyScene, tolerance: float | None = None, law: str | None = None) -> Scene:
+def scene_of(scene: AnyScene, tolerance: Tolerance = None, law: str | None = None) -> Scene:
     """The scene, checked. Raises SceneError, one line, for anything that is wrong with it.
 
     >>> scene_of("sinusoid").load.hertz_peak_pressure

@@ -1,7 +1,6 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
 import gc
-import math
 import sys
 from collections.abc import Sequence
 from io import StringIO
@@ -77,10 +76,11 @@ def run(
     with uncollected():
         from comparisons import api
         from comparisons.common.files import check_file
+        from comparisons.scenes.files import value_of
     gc.freeze()  # a collection would look through all that was imported
     asked = scene_with(scene, settings, context.obj)
     asked = _with_answers(asked, answer or (), units)
-    how = {"law": law, "tolerance": None if tolerance is None else _relative(tolerance)}
+    how = {"law": law, "tolerance": None if tolerance is None else value_of(tolerance)}
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
     if plan:
@@ -130,16 +130,3 @@ def _with_answers(asked: "Scene", answers: Sequence[str], units: str | None) -> 
     if not answers:
         return asked
     return asked.changed("answers", answers_named(answers, asked.written.get("answers"), units))
-
-
-def _relative(text: str) -> float:
-    """A tolerance as it is typed, a number or a percentage."""
-    from comparisons.common.units import DIMENSIONLESS, to_si
-
-    try:
-        value = to_si(text, DIMENSIONLESS) if "%" in text else float(text.encode("ascii"))
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < 1.0:
-        raise InputError(f"--tolerance: is {text}; allowed is a number above 0 and below 1, or 5%")
-    return value

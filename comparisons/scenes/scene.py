@@ -325,13 +325,9 @@ def with_settings(scene: Scene, settings: Sequence[str], command: Sequence[str] 
     return changed
 
 
-def with_tolerance(scene: Scene, tolerance: float) -> Scene:
-    """The scene with one relative tolerance for all that it judges.
-    Raises InputError unless it is above 0 and below 1."""
-    is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
-    if not (is_number and 0.0 < tolerance < 1.0):
-        shown = f"{tolerance:g}" if is_number else describe(tolerance)
-        raise InputError(f"tolerance: is {shown}; allowed is a number above 0 and below 1")
+def with_tolerance(scene: Scene, tolerance: float | str) -> Scene:
+    """The scene with one relative tolerance, such as 0.05 or "5%", for all that it judges.
+    Raises SceneError unless it is above 0 and below 1."""
     return scene.changed("tolerance", dict.fromkeys(scene.tables["tolerance"], tolerance))
 
 

@@ -102,11 +102,11 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         ),
         (
             lambda: crosscheck.run("smooth", tolerance="0.1"),
-            'tolerance: is "0.1"; allowed is a number',
+            'is "0.1", which has no unit; allowed is a number',
         ),
         (
             lambda: crosscheck.run("smooth", tolerance=True),
-            "tolerance: is true; allowed is a number",
+            "tolerance.peak_pressure: is true; allowed is a number",
         ),
         (lambda: crosscheck.run("smooth", out="/dev/null/a"), "/dev/null is not a folder"),
         (lambda: scene_of(7), "scene: is 7; allowed is a name, a path, tables"),
