@@ -48,10 +48,8 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 
 # By name, the module that has it.
-PUBLIC = {
-    "Scene": "comparisons.scenes.scene",
-    **dict.fromkeys(("compare", "cost", "map", "read", "run", "sweep"), "comparisons.api"),
-}
+FACE = "run sweep map cost verify stability deck read rerun table compare"
+PUBLIC = {"Scene": "comparisons.scenes.scene", **dict.fromkeys(FACE.split(), "comparisons.api")}
 __all__ = list(PUBLIC)
 ROOT = str(Path(__file__).resolve().parents[1])
 

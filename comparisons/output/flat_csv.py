@@ -55,6 +55,10 @@ class Records(Printed):
 
     rows: Sequence[Row]
 
+    @property
+    def figures(self) -> "Records":
+        return self
+
     def frame(self) -> "DataFrame":
         """The records as a table of pandas. Raises InputError where pandas is not installed."""
         try:

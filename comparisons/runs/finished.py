@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
     from comparisons.output.page.plots import Plots
 
-SHOWN = 3  # figures of a run that is summed up
-
 
 class RunFigures(Printed, Figures):
     """Every number of a run that is a result, with its uncertainty and verdict."""
@@ -152,12 +150,13 @@ class FinishedRun(RecordedRun):
         run, said = self.outcome, headline(self.outcome)
         figures = run.model_errors or run.figures.of(study="contact")
         rows = [_line(figure) for figure in figures if figure.quantity in QUANTITIES]
-        left = len(rows) - SHOWN
-        more = [f"… {left} more figure{'s' * (left > 1)}"] if left > 0 else []
         first = said.within.sentence, *("  ".join(verdict) for verdict in verdicts(run, said))
-        lines = run.problem.scene.title, *first, *rows[:SHOWN], *more, f"Next:  {said.next}"
-        wrapped = [part for line in lines for part in wrap(line, COLUMNS)]
-        return "\n".join([*wrapped, *said.paste])
+        head = _wrapped(run.problem.scene.title, *first)
+        tail = [*_wrapped(f"Next:  {said.next}"), *said.paste]
+        room = SUMMARY - len(head) - len(tail)
+        if len(rows) > room:
+            rows[max(room - 1, 0) :] = [f"… {len(rows) - max(room - 1, 0)} more figures"]
+        return "\n".join([*head, *rows, *tail])
 
     def __repr__(self) -> str:
         """The summary; a notebook shows the tables."""
@@ -217,6 +216,10 @@ def _line(figure: Figure) -> str:
     if figure.against is not None:
         said = f"{figure.words()}, against the {LABELS[figure.against]}"
     return f"{QUANTITIES[figure.quantity].short:14}  {figure.friction:<6g}  {said}"
+
+
+def _wrapped(*lines: str) -> list[str]:
+    return [part for line in lines for part in wrap(line, COLUMNS)]
 
 
 def _place(at: Mapping[str, float]) -> str:

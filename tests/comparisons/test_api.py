@@ -12,7 +12,7 @@ from scenes import STEEL, as_toml, without_cost
 import comparisons as crosscheck
 from comparisons.api import scene_of
 from comparisons.cli import main
-from comparisons.common.errors import InputError
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.figures.quantity import models_named
 from comparisons.grid.map import Map, finished_map
 from comparisons.runs.finished import FinishedRun
@@ -228,6 +228,14 @@ def test_a_finished_map_prints_and_draws(pyplot):
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
     assert "Model error of the half-plane" in shown.plot()[0].get_title(loc="left")
+
+
+def test_what_functions_return_is_of_one_kind(finished):
+    table, deck = crosscheck.compare(finished), crosscheck.deck("smooth", "calculix")
+    for result in (finished, table, deck, Map(finished_map("thickness-friction"), None)):
+        assert 0 < len(result.summary.splitlines()) <= 10, result.summary
+        assert result.exit_status in ExitStatus and result._repr_html_().startswith("<pre")
+        assert result.figures.rows and all(isinstance(row, dict) for row in result.figures.rows)
 
 
 def test_examples_run(tmp_path, monkeypatch, pyplot):
