@@ -34,7 +34,6 @@ class _SceneSchema(GenerateJsonSchema):
 
     def model_schema(self, schema: Mapping) -> dict:
         made = super().model_schema(schema)
-        del made["title"]
         made["required"] = sorted({*made.get("required", ())} - {*schema["cls"].FOLLOW})
         return made
 
@@ -42,7 +41,10 @@ class _SceneSchema(GenerateJsonSchema):
 @cache
 def json_schema(kind: type[BaseModel]) -> dict:
     """The JSON Schema (draft 2020-12) of a scene, or of one section."""
-    return {"$schema": DIALECT, **kind.model_json_schema(schema_generator=_SceneSchema)}
+    schema = kind.model_json_schema(schema_generator=_SceneSchema)
+    for table in (schema, *schema.get("$defs", {}).values()):
+        del table["title"]  # of the class
+    return {"$schema": DIALECT, **schema}
 
 
 def schema_for_editors(kind: type[BaseModel]) -> dict:
@@ -59,7 +61,7 @@ def forms(node: Mapping, root: Mapping) -> list[Mapping]:
     """What a part of a schema allows one of, with references followed."""
     if "$ref" in node:
         node = root["$defs"][node["$ref"].rpartition("/")[2]]
-    parts = node.get("anyOf")
+    parts = node.get("anyOf") or node.get("allOf")  # pydantic before 2.10 wraps a reference
     return [form for part in parts for form in forms(part, root)] if parts else [node]
 
 
@@ -78,6 +80,11 @@ def _inside(form: Mapping, part: str | int) -> Mapping | None:
     return next(iter(form.get("prefixItems", ())[part:]), form.get("items"))
 
 
+def choices_of(form: Mapping) -> list:
+    """The values of which a field takes one; [] where it takes others."""
+    return form.get("enum", [form["const"]] if "const" in form else [])
+
+
 def allowed(kind: type[BaseModel], *place: str) -> str:
     """What a field of a section may hold, in words."""
     root = json_schema(kind)
@@ -92,8 +99,8 @@ def words(node: Mapping, root: Mapping) -> str:
     if "anyOf" in node:
         return ", or ".join(words(part, root) for part in node["anyOf"]) + example
     [node] = forms(node, root)
-    if "enum" in node or "const" in node:
-        return " or ".join(map(json.dumps, node.get("enum", [node.get("const")])))
+    if choices := choices_of(node):
+        return " or ".join(map(json.dumps, choices))
     kinds = {
         "boolean": lambda: "true or false",
         "integer": lambda: f"a whole number from {node['minimum']} to {node['maximum']}",

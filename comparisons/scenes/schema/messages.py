@@ -10,7 +10,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from comparisons.common.errors import SceneError, nearest
 from comparisons.common.units import describe
 from comparisons.scenes.fields import FieldError, file_fields
-from comparisons.scenes.schema.json_schema import forms, json_schema, node_at, words
+from comparisons.scenes.schema.json_schema import choices_of, forms, json_schema, node_at, words
 
 ALIKE = 0.6  # difflib's ratio of a name that may be meant
 # What is often called otherwise.
@@ -95,7 +95,7 @@ def _allowed(place: Place, node: Mapping, root: Mapping) -> str:
 
 def _hint(entry: object, node: Mapping | None, root: Mapping) -> str:
     """The choice that may be meant."""
-    choices = [word for form in forms(node or {}, root) for word in form.get("enum", ())]
+    choices = [word for form in forms(node or {}, root) for word in choices_of(form)]
     near = nearest(entry, choices, ALIKE) if isinstance(entry, str) else None
     return f' (did you mean "{near}"?)' if near else ""
 
