@@ -189,10 +189,10 @@ Pressure = Annotated[float, Number(PRESSURE, gt=0.0)]
 Fraction = Annotated[float, Number(DIMENSIONLESS, gt=0.0, lt=1.0)]
 
 
-def optional(description: str, **more: Any) -> Any:
-    """A field that a file may leave out, which then is None: what it is, for the reference page,
-    JSON Schema and `init`, and what else pydantic's `Field` takes."""
-    return Field(None, description=description, **more)
+def optional(description: str, default: Any = None, **more: Any) -> Any:
+    """A field that a file may leave out: what it is, for the reference page, JSON Schema and
+    `init`; its value then; what else pydantic's `Field` takes."""
+    return Field(default, description=description, **more)
 
 
 class FieldError(ValueError):
@@ -235,14 +235,15 @@ class SceneSection(BaseModel):
         return self
 
     def unless_one_of(
-        self, names: Sequence[str], joint: str, or_none: bool = False
+        self, names: Sequence[str], or_none: bool = False
     ) -> Iterator[tuple[str, str]]:
         """A broken rule unless exactly one of these fields is given, or none with `or_none`."""
         present = [name for name in names if getattr(self, name) is not None]
         if len(present) > 1 or not (present or or_none):
             how = f"given beside {present[0]}" if present else "missing"
             field = present[1] if present else names[0]
-            yield field, f"is {how}; allowed is exactly one of {joint.join(names)}"
+            least = "at most" if or_none else "exactly"
+            yield field, f"is {how}; allowed is {least} one of {', '.join(names)}"
 
 
 def file_fields(table: type[BaseModel]) -> dict[str, FieldInfo]:

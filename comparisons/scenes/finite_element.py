@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, StrictBool
+from pydantic import StrictBool
 
 from comparisons.common.units import DIMENSIONLESS
 from comparisons.scenes.fields import Number, SceneSection, optional
@@ -18,21 +18,18 @@ QUADRATIC_UP_TO = 0.49
 class FiniteElementSection(SceneSection):
     """Which of the half-plane's assumptions the finite elements keep."""
 
-    roller_shape: Literal["parabola", "circle"] = Field(
-        "parabola", description="parabola or exact circle"
-    )
-    roller_body: Literal["half-plane", "disc"] = Field(
-        "half-plane",
-        description="body of an elastic roller: a half-plane, or a sector of its disc",
+    roller_shape: Literal["parabola", "circle"] = optional("parabola or exact circle", "parabola")
+    roller_body: Literal["half-plane", "disc"] = optional(
+        "body of an elastic roller: a half-plane, or a sector of its disc", "half-plane"
     )
     coupled: StrictBool | None = optional(
         "sliding traction moves the surfaces; by default as `load.coupled`, and with "
         "friction at finite deformation and where a body flows"
     )
-    deformation: Literal["linear", "finite"] = Field(
-        "linear",
-        description="small, with the roughness in the gap; or finite strains of body and roller, "
+    deformation: Literal["linear", "finite"] = optional(
+        "small, with the roughness in the gap; or finite strains of body and roller, "
         "the trace as boundary, the gap on the deformed surface",
+        "linear",
     )
     plastic: StrictBool | None = optional(
         "the body flows at `body.yield_stress`; false: elastic bodies are the "
@@ -42,12 +39,11 @@ class FiniteElementSection(SceneSection):
         "degree of the displacements; by default P3 above a Poisson's ratio of 0.49 "
         "in a linear body, else P2"
     )
-    block: Annotated[float, Number(DIMENSIONLESS, ge=10.0, le=5000.0)] = Field(
-        BLOCK,
-        description="half-widths that stand for an unbounded body, which ends at a fixed boundary",
+    block: Annotated[float, Number(DIMENSIONLESS, ge=10.0, le=5000.0)] = optional(
+        "half-widths that stand for an unbounded body, which ends at a fixed boundary", BLOCK
     )
-    growth: Annotated[float, Number(DIMENSIONLESS, ge=0.05, le=0.5)] = Field(
-        0.2, description="of element size per distance from the contact"
+    growth: Annotated[float, Number(DIMENSIONLESS, ge=0.05, le=0.5)] = optional(
+        "of element size per distance from the contact", 0.2
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:

@@ -129,10 +129,7 @@ class ProfileSection(SceneSection):
         return {**variety.defaults, **entry} if variety else entry
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        if self.file is not None and self.kind is not None:
-            yield "kind", "is given beside file; allowed is one of the two"
-        if self.file is None and self.kind is None:
-            yield "file", "is missing; allowed is file (measured) or kind (made)"
+        yield from self.unless_one_of(("file", "kind"))
         variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
@@ -145,9 +142,9 @@ class ProfileSection(SceneSection):
         if self.line is not None and self.line[0] == self.line[1]:
             yield "line", "starts where it ends"
         for names in variety.one_of:
-            yield from self.unless_one_of(names, " and ")
+            yield from self.unless_one_of(names)
         for names in variety.at_most_one_of:
-            yield from self.unless_one_of(names, " and ", or_none=True)
+            yield from self.unless_one_of(names, or_none=True)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """What a periodic surface does not take: a round body, another load, what bends."""

@@ -7,7 +7,14 @@ import numpy as np
 from pydantic import Field, StrictInt
 
 from comparisons.common.units import LENGTH, LOAD
-from comparisons.scenes.fields import Length, Number, Pressure, SceneSection, Several, optional
+from comparisons.scenes.fields import (
+    Length,
+    Number,
+    Pressure,
+    SceneSection,
+    Several,
+    optional,
+)
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
@@ -28,12 +35,12 @@ class RunningInSection(SceneSection):
     positions: Positions | None = optional("positions on the trace one by one")
     stroke: Length | None = optional("range of the roller about its position; or `positions`")
     passes: Passes | None = optional("positions along the stroke; 15 by default")
-    sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = Field(
-        10, description="over all positions, at most"
+    sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = optional(
+        "over all positions, at most", 10
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        yield from self.unless_one_of(("positions", "stroke"), " and ")
+        yield from self.unless_one_of(("positions", "stroke"))
         if self.positions is not None and self.passes is not None:
             problem = "is given beside positions, which are one pass each; allowed with stroke"
             yield "passes", problem

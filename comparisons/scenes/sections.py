@@ -172,9 +172,7 @@ class RollerSection(ElasticSection):
         "radius of relative curvature of the pair; needed, but over a periodic "
         "surface, where the smooth body is flat"
     )
-    rigid: StrictBool = Field(
-        False, description="the roller keeps its shape; in place of the next two"
-    )
+    rigid: StrictBool = optional("the roller keeps its shape; in place of the next two", False)
     youngs_modulus: Pressure | None = optional("Young's modulus; needed unless `rigid`")
     poissons_ratio: PoissonsRatio | None = optional("Poisson's ratio; needed unless `rigid`")
     support: Literal["opposite", "half disc"] | HubSection | None = optional(
@@ -276,16 +274,14 @@ class LoadSection(SceneSection):
     hertz_peak_pressure: Pressure | None = optional("peak pressure of the smooth pair")
     approach: Length | None = optional("of a rigid roller to a layer")
     mean_pressure: Pressure | None = optional("of a flat body on a periodic surface")
-    friction: Annotated[tuple[Friction, ...], Several()] = Field(
-        (0.0,), description="coefficient; several give a result for each"
+    friction: Annotated[tuple[Friction, ...], Several()] = optional(
+        "coefficient; several give a result for each", (0.0,)
     )
     position: Annotated[float, Number(LENGTH)] | None = optional(
         "of the roller's centre on the trace; the middle by default, on a periodic "
         "surface half a period from its lowest place"
     )
-    coupled: StrictBool = Field(
-        False, description="sliding traction moves the surfaces in both models"
-    )
+    coupled: StrictBool = optional("sliding traction moves the surfaces in both models", False)
 
     KINDS: ClassVar[tuple[str, ...]] = (
         "per_length",
@@ -304,7 +300,7 @@ class LoadSection(SceneSection):
         return getattr(self, self.kind)
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        yield from self.unless_one_of(self.KINDS, ", ")
+        yield from self.unless_one_of(self.KINDS)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         for there, where, needed in (
@@ -327,15 +323,15 @@ class StressSection(SceneSection):
     counts half-widths of the smooth contact."""
 
     STEP = "subsurface stresses"
-    depth: Annotated[Extent, ExtentField()] = Field(
-        Extent(1.0, in_half_widths=True), description="down to which the field reaches"
+    depth: Annotated[Extent, ExtentField()] = optional(
+        "down to which the field reaches", Extent(1.0, in_half_widths=True)
     )
     half_range: Annotated[Extent, ExtentField()] | None = optional(
         "to both sides of the roller's centre, 1.5 half-widths by default; about the "
         "contact where that lies beyond"
     )
-    points: tuple[Points, Points] = Field(
-        (600, 200), description="along x and along z, at most 50 million in all"
+    points: tuple[Points, Points] = optional(
+        "along x and along z, at most 50 million in all", (600, 200)
     )
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -347,9 +343,9 @@ class ToleranceSection(SceneSection):
     """What is judged, relative. Quantities without a tolerance are shown. Those of stresses need
     `[stress]`."""
 
-    peak_pressure: Fraction = Field(USUAL, description="largest pressure")
-    contact_length: Fraction = Field(USUAL, description="sum of the patches that touch")
-    tau1_max: Fraction = Field(USUAL, description="largest principal shear stress")
+    peak_pressure: Fraction = optional("largest pressure", USUAL)
+    contact_length: Fraction = optional("sum of the patches that touch", USUAL)
+    tau1_max: Fraction = optional("largest principal shear stress", USUAL)
     tau1_max_depth: Fraction | None = optional("depth of the largest principal shear stress")
     txz_max_abs: Fraction | None = optional("largest orthogonal shear stress")
 
@@ -373,27 +369,19 @@ class ResolutionSection(SceneSection):
         "or pressures of the finest of the first levels, at least; "
         "`--models half-plane` takes a million in seconds"
     )
-    levels: Annotated[StrictInt, Field(ge=2, le=6)] = Field(3, description="to begin with")
+    levels: Annotated[StrictInt, Field(ge=2, le=6)] = optional("to begin with", 3)
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        if self.pitch is not None and self.elements is not None:
-            yield "elements", "is given beside pitch; allowed is one of the two"
-        if self.nodes is not None and (self.pitch or self.elements):
-            beside = "pitch" if self.pitch else "elements"
-            yield "nodes", f"is given beside {beside}; allowed is one of the two"
+        yield from self.unless_one_of(("pitch", "elements", "nodes"), or_none=True)
 
 
 class BudgetSection(SceneSection):
     """What a run may take before refinement ends."""
 
-    time: Annotated[float, Number(TIME, gt=0.0)] = Field(
-        300.0, description="of a run, counted by the laws of cost and not by a clock"
+    time: Annotated[float, Number(TIME, gt=0.0)] = optional(
+        "of a run, counted by the laws of cost and not by a clock", 300.0
     )
-    memory: Annotated[float, Number(MEMORY, gt=0.0)] = Field(
-        8e9, description="of the finite elements"
-    )
-    effects: StrictBool | Literal["all"] = Field(
-        True,
-        description='compute the effects that may matter; `"all"`: those too that cannot change '
-        "a verdict",
+    memory: Annotated[float, Number(MEMORY, gt=0.0)] = optional("of the finite elements", 8e9)
+    effects: StrictBool | Literal["all"] = optional(
+        'compute the effects that may matter; `"all"`: those too that cannot change a verdict', True
     )

@@ -54,9 +54,9 @@ class AnswerSection(SceneSection):
     file: Annotated[tuple[Text, ...], Several(repeated=True)] = Field(
         description="a file for each resolution of the answer, from the scene's folder"
     )
-    columns: Columns = Field(
+    columns: Columns = optional(
+        "of a table: x and pressure, by name or by number from 0",
         (0, 1),
-        description="of a table: x and pressure, by name or by number from 0",
         examples=[["x", "p"], [0, 2]],
     )
     shear: Columns | None = optional(
@@ -71,8 +71,8 @@ class AnswerSection(SceneSection):
         "axis of the file out of the rough body, with its sign; found by default: the "
         "body reaches far to one side"
     )
-    x_origin: Offset = Field(0.0, description="where the scene's origin lies in the file")
-    z_origin: Offset = Field(0.0, description="the same along `up`")
+    x_origin: Offset = optional("where the scene's origin lies in the file", 0.0)
+    z_origin: Offset = optional("the same along `up`", 0.0)
     pressure: Text | None = optional(
         'array of a mesh that holds the pressure, such as `"CONTACT.3"`; by default '
         "minus the normal stress on the body's top"

@@ -31,10 +31,10 @@ class HeatSection(SceneSection):
     STEP = "frictional heat"
     FOLLOW = tuple(f"{body}_{constant}" for body in ("body", "roller") for constant in CONSTANTS)
     speed: Annotated[float, Number(SPEED, gt=0.0)] = Field(description="of sliding")
-    slide_to_roll: Annotated[float, Number(DIMENSIONLESS, ge=-2.0, le=2.0)] = Field(
-        2.0,
-        description="speed over the mean speed of both surfaces past the contact, not 0; -2: the "
+    slide_to_roll: Annotated[float, Number(DIMENSIONLESS, ge=-2.0, le=2.0)] = optional(
+        "speed over the mean speed of both surfaces past the contact, not 0; -2: the "
         "contact stays on the body, 2: on the roller",
+        2.0,
     )
     body_conductivity: Conductivity = Field(description="of the rough body")
     body_density: Density = Field(description="of the rough body")
@@ -45,8 +45,8 @@ class HeatSection(SceneSection):
     coating_conductivity: Conductivity | None = optional("needed with `[coating]`")
     coating_density: Density | None = optional("needed with `[coating]`")
     coating_specific_heat: SpecificHeat | None = optional("needed with `[coating]`")
-    bulk_temperature: Annotated[float, Number(TEMPERATURE, ge=0.0)] = Field(
-        293.15, description="of both bodies [K]"
+    bulk_temperature: Annotated[float, Number(TEMPERATURE, ge=0.0)] = optional(
+        "of both bodies [K]", 293.15
     )
     base: Literal["held", "insulated"] | None = optional(
         "of a body with `thickness`: at the bulk temperature (by default) or insulated"
@@ -55,10 +55,8 @@ class HeatSection(SceneSection):
         "from the contact to where a body at rest, and the disc, has the bulk "
         "temperature; by default the roller's radius"
     )
-    tolerance: Fraction = Field(0.05, description="of temperatures and thermal stresses")
-    stresses: StrictBool = Field(
-        False, description="add the thermal stresses of the body; needs `[stress]`"
-    )
+    tolerance: Fraction = optional("of temperatures and thermal stresses", 0.05)
+    stresses: StrictBool = optional("add the thermal stresses of the body; needs `[stress]`", False)
     body_expansion: Expansion | None = optional("needed with `stresses`")
     coating_expansion: Expansion | None = optional("needed with `stresses` and `[coating]`")
 

@@ -21,16 +21,13 @@ class PartialSlipSection(SceneSection):
     loads: Annotated[tuple[Share, ...], Several(repeated=True)] | None = optional(
         "several, one after the other; 0 alone presses unlike bodies, which friction holds"
     )
-    bulk_stress: Annotated[float, Number(PRESSURE)] = Field(
-        0.0,
-        description="of the body along x, tensile, at the largest load and in phase with all",
+    bulk_stress: Annotated[float, Number(PRESSURE)] = optional(
+        "of the body along x, tensile, at the largest load and in phase with all", 0.0
     )
-    increments: Annotated[StrictInt, Field(ge=2, le=512)] = Field(
-        16,
-        description="of the normal load, and of a tangential one up to sliding, where bodies are "
-        "unlike",
+    increments: Annotated[StrictInt, Field(ge=2, le=512)] = optional(
+        "of the normal load, and of a tangential one up to sliding, where bodies are unlike", 16
     )
-    tolerance: Fraction = Field(0.05, description="of both models' figures")
+    tolerance: Fraction = optional("of both models' figures", 0.05)
 
     @property
     def path(self) -> tuple[float, ...]:
@@ -43,7 +40,7 @@ class PartialSlipSection(SceneSection):
         return max(map(abs, self.path)) or 1.0
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
-        yield from self.unless_one_of(("load", "loads"), " and ")
+        yield from self.unless_one_of(("load", "loads"))
         if self.bulk_stress and not any(self.path):
             yield "bulk_stress", "is given without a load that it goes with; allowed beside one"
 

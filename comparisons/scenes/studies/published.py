@@ -39,10 +39,9 @@ class PublishedSection(SceneSection):
         "which of ours is judged by it; by default the last that is run"
     )
     source: Text = Field(description="document and page")
-    read: StrictBool = Field(True, description="whether the source itself was read")
-    doubtful: StrictBool = Field(
-        False,
-        description="shown, and not judged, because its own source speaks against it; needs `note`",
+    read: StrictBool = optional("whether the source itself was read", True)
+    doubtful: StrictBool = optional(
+        "shown, and not judged, because its own source speaks against it; needs `note`", False
     )
     note: Text | None = optional("what a reader should know, or why the figure is doubtful")
 

@@ -121,10 +121,10 @@ class ScatterSection(SceneSection):
     """How uncertain inputs are. A text in per cent counts from the scene's value. Normal
     distributions are cut off at 3 standard deviations."""
 
-    samples: Annotated[StrictInt, Field(ge=FEWEST, le=MOST)] = Field(
-        64, description="of each of two designs by Sobol's sequence; a power of two"
+    samples: Annotated[StrictInt, Field(ge=FEWEST, le=MOST)] = optional(
+        "of each of two designs by Sobol's sequence; a power of two", 64
     )
-    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of the samples")
+    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = optional("of the samples", 0)
     roller_radius: LengthSpread | None = optional("radius of the roller")
     roller_youngs_modulus: Modulus | None = optional("its Young's modulus")
     roller_poissons_ratio: Ratio | None = optional("its Poisson's ratio")

@@ -14,19 +14,17 @@ class StatisticsSection(SceneSection):
     """Theories of rough contact beside the solved one. It needs `[profile]`."""
 
     STEP = "statistics of rough contact"
-    traces: Annotated[StrictInt, Field(ge=4, le=256)] = Field(
-        8, description="random ones with the profile's spectrum that are solved"
+    traces: Annotated[StrictInt, Field(ge=4, le=256)] = optional(
+        "random ones with the profile's spectrum that are solved", 8
     )
-    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = Field(0, description="of these traces")
+    seed: Annotated[StrictInt, Field(ge=0, le=2**32 - 1)] = optional("of these traces", 0)
     cutoffs: Annotated[tuple[Length, ...], Several()] | None = optional(
         "filters under which summits are counted; chosen by default"
     )
-    metal: Literal[METALS] = Field(
-        METALS[0], description="of the body: h/R up to which an asperity is elastic"
+    metal: Literal[METALS] = optional(
+        "of the body: h/R up to which an asperity is elastic", METALS[0]
     )
-    lubricated: StrictBool = Field(
-        False, description="whether it is: h/R from which an asperity cuts"
-    )
+    lubricated: StrictBool = optional("whether it is: h/R from which an asperity cuts", False)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         if scene.profile is None:

@@ -126,8 +126,8 @@ COMBINATIONS = [
         "load.approach: has no meaning on a half-plane, whose displacement has no datum; allowed",
     ),
     ({"load.position": '"3 mm"'}, "load.position: is on a smooth body without ends, which is the"),
-    ({"profile.form": '"line"'}, "profile.file: is missing; allowed is file (measured) or kind"),
-    ({**MEASURED, **SINUSOID}, "profile.kind: is given beside file; allowed is one of the two"),
+    ({"profile.form": '"line"'}, "profile.file: is missing; allowed is exactly one of file, kind"),
+    ({**MEASURED, **SINUSOID}, "profile.kind: is given beside file; allowed is exactly one of"),
     (
         {**MEASURED, "profile.file": '"absent.csv"'},
         "profile.file: absent.csv: there is no such file",
@@ -154,7 +154,7 @@ COMBINATIONS = [
     ),
     (
         {**SELF_AFFINE, "profile.rms_height": '"1 um"'},
-        "profile.rms_height: is given beside rms_slope; allowed is exactly one of rms_slope and",
+        "profile.rms_height: is given beside rms_slope; allowed is exactly one of rms_slope, rms",
     ),
     (
         {**SELF_AFFINE, "profile.shortest_wavelength": '"1 um"'},

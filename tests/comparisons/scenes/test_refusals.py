@@ -120,7 +120,7 @@ SOLVING = [
     (
         SMOOTH,
         {"resolution": {"pitch": "1 um", "elements": 8}},
-        "resolution.elements: is given beside pitch; allowed is one of the two",
+        "resolution.elements: is given beside pitch; allowed is at most one of",
     ),
 ]
 HEAT = [
@@ -162,7 +162,7 @@ PROFILES = [
     *(
         (MAP, changes, f"profile.{complaint}")
         for changes, complaint in (
-            ({"row": 1, "column": 2}, "column: is given beside row; allowed is exactly one of"),
+            ({"row": 1, "column": 2}, "column: is given beside row; allowed is at most one of"),
             ({"row": -1}, "row: is -1; allowed is a whole number from 0"),
             ({"line": 3}, "line: is 3; allowed is a list of 2, each a list of 2, each a length"),
             (
