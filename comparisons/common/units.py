@@ -5,12 +5,13 @@ same double. Loading it takes ten times as long as reading a scene, so the units
 every day stand in a table here; the tests hold every entry of it against pint."""
 
 import datetime
-import difflib
 import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
+
+from comparisons.common.errors import nearest
 
 
 class UnitError(ValueError):
@@ -181,8 +182,8 @@ def pint_factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
 def _unknown(unit: str, dimension: Dimension) -> str:
     same = [name for name, (known, _) in COMMON_UNITS.items() if known is dimension]
     folded = {name.casefold(): name for name in reversed(same)}
-    near = difflib.get_close_matches(unit.casefold(), folded, n=1, cutoff=0.6)
-    hint = f' (did you mean "{folded[near[0]]}"?)' if near else ""
+    near = nearest(unit.casefold(), folded, 0.6)
+    hint = f' (did you mean "{folded[near]}"?)' if near else ""
     return f"{describe(unit)} is no known unit{hint}"
 
 
