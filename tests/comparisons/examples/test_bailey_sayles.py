@@ -94,7 +94,7 @@ def test_the_folder_holds_table_and_pictures(made):
 
 def test_the_page_shows_that_table(made):
     judged, _ = made
-    page = (PROJECT / "comparisons/docs/evidence/questions.md").read_text(encoding="utf-8")
+    page = (PROJECT / "comparisons/docs/bailey_sayles/index.md").read_text(encoding="utf-8")
     shown = page.partition("| figure | claim | number |")[2].partition("\n\n")[0].splitlines()[2:]
     for row, claim in zip(shown, judged, strict=True):
         (figure, says, number, *judgement), cells = (
