@@ -62,23 +62,12 @@ def _whole(
     """Checks the half-plane method for rough line contact against finite elements."""
 
 
-for name, command in {
-    "run": run.run,
-    "cost": studies.cost,
-    "map": studies.map_of,
-    "sweep": studies.sweep,
-    "report": finished.report,
-    "table": finished.table,
-    "rerun": finished.rerun,
-    "stability": checks.stability,
-    "verify": checks.verify,
-    "scenes": scenes.scenes,
-    "materials": materials.materials,
-    "deck": scenes.deck,
-    "init": scenes.init,
-    "doctor": doctor.doctor,
-}.items():
-    app.command(name)(command)
+for command in (
+    *(run.run, studies.cost, studies.map, studies.sweep),
+    *(finished.report, finished.table, finished.rerun, checks.stability, checks.verify),
+    *(scenes.scenes, materials.materials, scenes.deck, scenes.init, doctor.doctor),
+):
+    app.command()(command)
 
 
 def entry() -> NoReturn:

@@ -1,12 +1,15 @@
 """What several commands take, and what the shell may complete."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 from typer.models import OptionInfo
+
+from comparisons.figures.quantity import HYPHENATED
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
@@ -60,40 +63,33 @@ def complete_scenes(incomplete: str) -> list[str]:
         for path in paths
         if path.is_dir() or path.suffix == ".toml"
     ]
-    return [*_beginning(scene_names(), incomplete), *_beginning(words, incomplete)]
+    return [name for name in (*scene_names(), *words) if name.startswith(incomplete)]
+
+
+def completing(module: str, name: str) -> Callable[[str], list[str]]:
+    """What begins so of the names that a module, imported then, has or returns under `name`."""
+
+    def complete(incomplete: str) -> list[str]:
+        names = getattr(import_module(module), name)
+        return [n for n in (names() if callable(names) else names) if n.startswith(incomplete)]
+
+    return complete
 
 
 def complete_maps(incomplete: str) -> list[str]:
-    """The same with the names of finished maps."""
-    from comparisons.grid.map import finished_names
-
-    return [*_beginning(finished_names(), incomplete), *complete_scenes(incomplete)]
-
-
-def complete_groups(incomplete: str) -> list[str]:
-    from comparisons.grid.groups import GROUPS
-
-    return _beginning(GROUPS, incomplete)
-
-
-def complete_quantities(incomplete: str) -> list[str]:
-    from comparisons.figures.quantity import QUANTITIES
-
-    return _beginning(QUANTITIES, incomplete)
+    """The names of finished maps, too."""
+    finished = completing("comparisons.grid.map", "finished_names")
+    return [*finished(incomplete), *complete_scenes(incomplete)]
 
 
 def complete_models(incomplete: str) -> list[str]:
     """Models, and both of them."""
-    from comparisons.figures.quantity import HYPHENATED
-
-    names = HYPHENATED.values()
-    return _beginning([*names, ",".join(names)], incomplete)
+    return [name for name in (*HYPHENATED.values(), BOTH) if name.startswith(incomplete)]
 
 
-def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
-    return [name for name in names if name.startswith(incomplete)]
-
-
+complete_groups = completing("comparisons.grid.groups", "GROUPS")
+complete_quantities = completing("comparisons.figures.quantity", "QUANTITIES")
+BOTH = ",".join(HYPHENATED.values())
 SCENE = "A TOML file, or a name that `scenes` lists."
 SET = 'Another value of a field of the scene, such as body.yield_stress="1.2 GPa"; several times.'
 MODELS = "Models to solve with, separated by commas."

@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from time import monotonic
 
 from comparisons.common.errors import tell
@@ -99,6 +100,12 @@ def show_either(as_json: bool, content: Callable[[], object], tables: Callable[[
         show_json(content())
     else:
         show(tables())
+
+
+def say_written(folder: Path, with_report: bool = True) -> None:
+    """Print where a run's files are."""
+    first = f"{folder / 'report.html'}, result.json" if with_report else folder / "result.json"
+    print(f"written: {first} and the fields beside it")
 
 
 def show_json(content: object) -> None:

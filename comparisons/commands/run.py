@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Context, Option
 
 from comparisons.commands.arguments import (
+    BOTH,
     RESULTS,
     Junit,
     Models,
@@ -19,14 +20,12 @@ from comparisons.commands.arguments import (
     out_option,
     scene_with,
 )
-from comparisons.commands.output import plain, progress, show_either
-from comparisons.common.errors import ExitStatus, InputError, tell
-from comparisons.figures.quantity import HYPHENATED
+from comparisons.commands.output import plain, progress, say_written, show_either
+from comparisons.common.errors import ExitStatus, InputError
 
 if TYPE_CHECKING:
     from comparisons.scenes.scene import Scene
 
-BOTH = ",".join(HYPHENATED.values())
 Tolerance = Annotated[
     str | None,
     Option(help="Relative, such as 5%, of all that is judged; refinement ends where met."),
@@ -78,8 +77,7 @@ def run(
         from comparisons.common.files import check_file
         from comparisons.scenes.files import value_of
     gc.freeze()  # a collection would look through all that was imported
-    asked = scene_with(scene, settings, context.obj)
-    asked = _with_answers(asked, answer or (), units)
+    asked = _with_answers(scene_with(scene, settings, context.obj), answer or (), units)
     how = {"law": law, "tolerance": None if tolerance is None else value_of(tolerance)}
     if plan and as_json:
         raise InputError("run: allowed is one of --plan, --json")
@@ -101,24 +99,10 @@ def run(
         raise
     finally:  # whoever reads on: the files are for others
         with progress() as callback:
-            drawn = solved.write(progress=callback, junit=junit)
-            if pdf and drawn:
-                callback("printing the report")
-                _print(folder)
+            drawn = solved.write(junit=junit, pdf=pdf, progress=callback)
     if not as_json:
-        first = f"{folder / 'report.html'}, result.json" if drawn else folder / "result.json"
-        print(f"written: {first} and the fields beside it")
+        say_written(folder, drawn)
     return solved.exit_status
-
-
-def _print(folder: Path) -> None:
-    """Print the report; a run whose report no browser prints is as good as any other."""
-    from comparisons.output.page.pdf import NoPdfError, print_report
-
-    try:
-        print_report(folder)
-    except NoPdfError as error:
-        tell(str(error))
 
 
 def _with_answers(asked: "Scene", answers: Sequence[str], units: str | None) -> "Scene":

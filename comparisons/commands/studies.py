@@ -18,7 +18,7 @@ from comparisons.commands.arguments import (
     out_option,
     scene_with,
 )
-from comparisons.commands.output import progress, show_either
+from comparisons.commands.output import progress, say_written, show_either
 
 Axis = Annotated[
     str | None,
@@ -48,11 +48,11 @@ def cost(
         solved = api.cost(asked, out=folder, progress=callback)
     show_either(as_json, lambda: solved.result, solved.tables)
     if not as_json:
-        print(f"written: {folder / 'report.html'}, result.json and the fields beside it")
+        say_written(folder)
     return solved.exit_status
 
 
-def map_of(
+def map(
     scene: Annotated[str, Argument(help=MAPPED, autocompletion=complete_maps)],
     settings: Settings = None,
     points: Annotated[
@@ -81,12 +81,10 @@ def map_of(
     from comparisons.scenes.files import name_of
 
     folder = out or RESULTS / name_of(Path(scene))
-    shown = {"quantity": quantity, "mark": mark, "out": folder}
+    asked = {"x": x, "y": y, "quantity": quantity, "settings": settings or (), "mark": mark}
+    how = {"again": again, "workers": workers, "out": folder}
     with progress() as callback:
-        made = api.map(
-            scene, points, x=x, y=y, settings=settings or (), again=again, workers=workers,
-            progress=callback, **shown
-        )  # fmt: skip
+        made = api.map(scene, points, **asked, **how, progress=callback)
     show_either(as_json, lambda: made.content, made.tables)
     return made.exit_status
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from comparisons.common.errors import ExitStatus, InputError, nearest
 from comparisons.common.files import write_whole
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.progress import Lasting, ProgressCallback, no_progress
 from comparisons.drawing.tables import in_its_unit
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import LABELS, QUANTITIES
@@ -178,17 +178,27 @@ class FinishedRun(RecordedRun):
         folder: str | os.PathLike | None = None,
         *,
         junit: Path | None = None,
+        pdf: bool = False,
         progress: ProgressCallback = no_progress,
     ) -> bool:
         """Write the run's files. Returns whether its report could be drawn. Raises InputError where
         they cannot be written.
 
         folder  None is the one that it was solved for, if any
-        junit   file for JUnit XML"""
-        run = self.outcome
-        drawn = finish(run if folder is None else replace(run, directory=Path(folder)), progress)
+        junit   file for JUnit XML
+        pdf     print the report, too, where a browser does"""
+        from comparisons.output.page.pdf import NoPdfError, print_report
+
+        place = self.outcome.directory if folder is None else Path(folder)
+        drawn = finish(replace(self.outcome, directory=place), progress)
         if junit is not None:
-            write_whole(junit, junit_of_run(run))
+            write_whole(junit, junit_of_run(self.outcome))
+        if pdf and drawn:
+            progress("printing the report")
+            try:
+                print_report(place)
+            except NoPdfError as error:
+                progress(Lasting(str(error)))
         return drawn
 
     def report(self, path: str | os.PathLike) -> Path:
