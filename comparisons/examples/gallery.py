@@ -7,14 +7,10 @@ minutes in all. The page and its pictures are written beside the other pages."""
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import comparisons as crosscheck
-
-if TYPE_CHECKING:
-    from comparisons.api import RecordedRun
 
 HERE = Path(crosscheck.__file__).parent
 SCENES = sorted((HERE / "scenes" / "library").glob("*.toml"), key=lambda path: path.stem)
@@ -32,7 +28,7 @@ COLOURS = {"half-plane": "#d95f02", "finite-element": "#1b6ca8", "whole": "#1b6c
 SIZE, PIXELS = (3.6, 2.3), 200  # inches, and pixels to one
 
 
-def run_of(scene: str, runs: Path) -> "RecordedRun":
+def run_of(scene: str, runs: Path) -> "crosscheck.api.RecordedRun":
     """The run of a scene in a folder of runs; solved where it is not there."""
     folder = runs / scene
     if not (folder / "result.json").exists():
@@ -40,7 +36,7 @@ def run_of(scene: str, runs: Path) -> "RecordedRun":
     return crosscheck.read(folder)
 
 
-def pressures(run: "RecordedRun") -> dict[str, dict[str, np.ndarray]]:
+def pressures(run: "crosscheck.api.RecordedRun") -> dict[str, dict[str, np.ndarray]]:
     """Curves of the half-plane, and of what its error is against."""
     try:
         last = {"whole": run.contact("whole")}
@@ -49,7 +45,7 @@ def pressures(run: "RecordedRun") -> dict[str, dict[str, np.ndarray]]:
     return {"half-plane": run.contact("half-plane"), **last}
 
 
-def draw(run: "RecordedRun", path: Path) -> None:
+def draw(run: "crosscheck.api.RecordedRun", path: Path) -> None:
     """Draw pressures and, where there is one, the field of τ₁ below; as PNG of few colours."""
     from matplotlib.figure import Figure
     from PIL import Image
@@ -75,7 +71,7 @@ def draw(run: "RecordedRun", path: Path) -> None:
     )
 
 
-def card(scene: Path, run: "RecordedRun") -> str:
+def card(scene: Path, run: "crosscheck.api.RecordedRun") -> str:
     """One scene on the page."""
     result, name = run.result, scene.stem
     [models] = (series["columns"] for series in result["series"] if series["study"] == "ladder")
