@@ -22,9 +22,9 @@ from comparisons.figures.quantity import MODELS, models_named
 from comparisons.judging.study import Run
 from comparisons.output.flat_csv import FigureTable, tidy_rows
 from comparisons.output.plausibility import warnings_about, warnings_about_result
-from comparisons.output.result import read_result
+from comparisons.output.result import Result, read_result
 from comparisons.runs import run as runs
-from comparisons.runs.finished import FinishedRun, MethodCosts, RecordedRun
+from comparisons.runs.finished import FinishedRun, MethodCosts
 from comparisons.scenes.scene import Scene, with_law, with_tolerance
 from comparisons.scenes.surface import surface_of
 
@@ -114,9 +114,9 @@ def plan(
     return runs.planned(asked, surface_of(asked), chosen)
 
 
-def read(folder: str | os.PathLike) -> RecordedRun:
+def read(folder: str | os.PathLike) -> Result:
     """A run from the folder that it has left, without solving. InputError where there is none."""
-    return RecordedRun(read_result(Path(folder)), str(folder))
+    return read_result(Path(folder))
 
 
 def rerun(
@@ -136,7 +136,7 @@ def table(*folders: str | os.PathLike) -> FigureTable:
     return FigureTable(tidy_rows([Path(folder) for folder in folders]))
 
 
-def compare(*runs: RecordedRun | Sequence[RecordedRun]) -> FigureTable:
+def compare(*runs: Result | Sequence[Result]) -> FigureTable:
     """The figures of runs, or of lists of them, a row each."""
     lists = (given if isinstance(given, list | tuple) else [given] for given in runs)
     return FigureTable([row for runs in lists for run in runs for row in run.figures.rows], "title")

@@ -248,7 +248,7 @@ def without_cost(result: dict) -> dict:
     differs = ("made", "command", "files")
     record = {name: part for name, part in result["record"].items() if name not in differs}
     series = [series for series in result["series"] if "is_account" not in series]
-    return result | {"record": record, "series": series, "summary": None}  # which has times
+    return result | {"record": record, "series": series, "printed": None}  # which has times
 
 
 def unconverged(run: "Run", model: str) -> "Run":

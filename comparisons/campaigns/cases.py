@@ -23,8 +23,8 @@ from comparisons.common.tasks import ProcessEnded, called, tasks_here
 from comparisons.figures.figure import Figure
 from comparisons.figures.quantity import LABELS
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.output.flat_csv import Records
 from comparisons.output.junit import JunitCase, junit_xml
+from comparisons.output.records import Records
 from comparisons.output.terminal import Printed, plain_table
 
 if TYPE_CHECKING:

@@ -28,7 +28,7 @@ COLOURS = {"half-plane": "#d95f02", "finite-element": "#1b6ca8", "whole": "#1b6c
 SIZE, PIXELS = (3.6, 2.3), 200  # inches, and pixels to one
 
 
-def run_of(scene: str, runs: Path) -> "crosscheck.api.RecordedRun":
+def run_of(scene: str, runs: Path) -> "crosscheck.api.Result":
     """The run of a scene in a folder of runs; solved where it is not there."""
     folder = runs / scene
     if not (folder / "result.json").exists():
@@ -36,7 +36,7 @@ def run_of(scene: str, runs: Path) -> "crosscheck.api.RecordedRun":
     return crosscheck.read(folder)
 
 
-def pressures(run: "crosscheck.api.RecordedRun") -> dict[str, dict[str, np.ndarray]]:
+def pressures(run: "crosscheck.api.Result") -> dict[str, dict[str, np.ndarray]]:
     """Curves of the half-plane, and of what its error is against."""
     try:
         last = {"whole": run.contact("whole")}
@@ -45,7 +45,7 @@ def pressures(run: "crosscheck.api.RecordedRun") -> dict[str, dict[str, np.ndarr
     return {"half-plane": run.contact("half-plane"), **last}
 
 
-def draw(run: "crosscheck.api.RecordedRun", path: Path) -> None:
+def draw(run: "crosscheck.api.Result", path: Path) -> None:
     """Draw pressures and, where there is one, the field of τ₁ below; as PNG of few colours."""
     from matplotlib.figure import Figure
     from PIL import Image
@@ -71,7 +71,7 @@ def draw(run: "crosscheck.api.RecordedRun", path: Path) -> None:
     )
 
 
-def card(scene: Path, run: "crosscheck.api.RecordedRun") -> str:
+def card(scene: Path, run: "crosscheck.api.Result") -> str:
     """One scene on the page."""
     result, name = run.result, scene.stem
     [models] = (series["columns"] for series in result["series"] if series["study"] == "ladder")

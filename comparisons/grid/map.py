@@ -48,7 +48,7 @@ from comparisons.grid.points import (
     solved_in,
 )
 from comparisons.models.problem import Problem
-from comparisons.output.flat_csv import Records
+from comparisons.output.records import Records
 from comparisons.output.terminal import Printed
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene, with_settings

@@ -38,8 +38,9 @@ from comparisons.grid.sweep_picture import FRICTION, PICTURE, POSITION, ZONES, d
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.models.posing import problem_of
-from comparisons.output.flat_csv import COLUMNS, Row, harmless, rows_of
+from comparisons.output.flat_csv import harmless
 from comparisons.output.plausibility import warnings_about, warnings_about_result
+from comparisons.output.records import COLUMNS, Row
 from comparisons.output.result import result_of
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments, dimension_of
@@ -254,7 +255,7 @@ def solved(point: Point) -> dict:
     result = result_of(outcome)
     warnings = *warnings_about(point.scene, surface), *warnings_about_result(outcome)
     answer = {"status": SOLVED, "verdict": result.verdict, "within": result.within}
-    answer |= {"warnings": warnings, "rows": tuple(rows_of(result, point.scene.name))}
+    answer |= {"warnings": warnings, "rows": tuple(result.figures.rows)}
     zones: dict[str, list[dict]] = {}  # by model, then by friction
     for zone in quiescent_zone.zones_of(outcome.findings.get(quiescent_zone.NAME)):
         entry = {"friction": zone.friction, "status": zone.state}
@@ -328,7 +329,7 @@ def rows_of_points(content: dict) -> list[Row]:
 
 def sweep_csv(content: dict) -> str:
     """A row for each figure of each point: the swept fields, and the columns of
-    `comparisons.output.flat_csv`."""
+    `comparisons.output.records`."""
     columns = dict.fromkeys((*(axis["field"] for axis in content["over"]), *COLUMNS))
     rows = ([harmless(row[name]) for name in columns] for row in rows_of_points(content))
     return csv_text([columns, *rows])

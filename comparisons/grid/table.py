@@ -26,7 +26,7 @@ from comparisons.grid.sweep_picture import (
 )
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.output.flat_csv import Records, Row
+from comparisons.output.records import Records, Row
 from comparisons.output.terminal import PLAIN, Printed, plain_table, plain_text
 from comparisons.studies import quantity_of
 

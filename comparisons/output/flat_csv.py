@@ -1,16 +1,9 @@
 """The figures of many runs as one table, a row each.
 
-In: the result.json of runs. Out: records, CSV, or a table for people. Columns:
-  run, scene, title      folder, name, title
-  study, quantity, source, against, friction   name the figure within its run
-  value                  in `unit`, SI; relative where it is `against` a reference
-  uncertainty, not_modelled   relative
-  low, high              the bounds of what is judged, and its verdict
-  within                 of the run: the least tolerance at which every judged figure holds
+In: the folders of runs. Out: records, CSV, or a table for people. What is unknown is empty in a
+CSV."""
 
-What is unknown is empty in a CSV."""
-
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -18,61 +11,17 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, one_line, tell
 from comparisons.common.files import check_file, csv_text, write_whole
-from comparisons.common.numbers import (
-    finite,
-    percent,
-    percent_as_written,
-    plain,
-    rounded_up,
-    with_unit,
-)
+from comparisons.common.numbers import percent_as_written, rounded_up
 from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import LABELS
 from comparisons.judging import contact
 from comparisons.judging.study import LADDER
-from comparisons.output.result import FILE, Result, read_result
-from comparisons.output.terminal import Printed, plain_table, plain_text
-from comparisons.studies import meaning
+from comparisons.output.records import COLUMNS, Records, Row, rows_tables
+from comparisons.output.result import FILE, read_result
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
-    from rich.console import Group, RenderableType
+    from rich.console import RenderableType
 
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
-COLUMNS = (
-    *("run", "scene", "title", "study", "quantity", "unit", "source", "against", "friction"),
-    *("value", "uncertainty", "not_modelled", "low", "high", "verdict", "within"),
-)
-
-NAMES = "quantity", "source", "against"  # of a figure, as in result.json
-
-Row = dict[str, str | float | None]
-
-
-@dataclass(frozen=True, repr=False)
-class Records(Printed):
-    """Figures as records, one each."""
-
-    rows: Sequence[Row]
-
-    @property
-    def figures(self) -> "Records":
-        return self
-
-    def frame(self) -> "DataFrame":
-        """The records as a table of pandas. Raises InputError where pandas is not installed."""
-        try:
-            from pandas import DataFrame
-        except ImportError:
-            raise InputError("frame: pandas is not installed; `rows` are records") from None
-        return DataFrame(list(self.rows))
-
-    def tables(self) -> "RenderableType":
-        """All columns."""
-        cells = [
-            ["" if value is None else str(value) for value in row.values()] for row in self.rows
-        ]
-        return plain_table(*next(iter(self.rows), ()), rows=cells)
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,7 +46,7 @@ def tidy_rows(folders: Iterable[Path]) -> list[Row]:
     rows, wrong = [], []
     for folder in _runs(folders):
         try:
-            rows += rows_of(read_result(folder), one_line(str(folder)))
+            rows += read_result(folder).figures.rows
         except InputError as error:
             wrong.append(error)
     if not rows:
@@ -143,21 +92,6 @@ def _runs(folders: Iterable[Path]) -> list[Path]:
     return list(runs.values())
 
 
-def rows_of(result: Result, run: str) -> list[Row]:
-    """A row a figure, of every study of one run, each with all COLUMNS."""
-    common = {"run": run, "scene": result.scene["name"], "title": result.scene["title"]}
-    common["within"] = result.within
-    names = ("study", "quantity", "source", "against", "friction", "value", "not_modelled")
-    rows = []
-    for figure in result.figures:
-        row = common | {name: getattr(figure, name) for name in (*names, "verdict")}
-        row["unit"] = "" if figure.against else meaning(figure).unit
-        row["uncertainty"] = figure.numerical
-        row["low"], row["high"] = figure.bounds or (None, None)
-        rows.append(finite({name: row[name] for name in COLUMNS}))
-    return rows
-
-
 def judged_rows(rows: Iterable[Row]) -> list[Row]:
     """What each run answers for; of a run that judges nothing its contact."""
     shown = []
@@ -167,44 +101,8 @@ def judged_rows(rows: Iterable[Row]) -> list[Row]:
     return shown
 
 
-def in_words(name: str) -> str:
-    """A quantity's or a model's name for people."""
-    return LABELS.get(name, name.replace("_", " "))
-
-
-def rows_tables(
-    rows: Iterable[Row], title: Callable[[Row], str], say: Callable[[str], str] = in_words
-) -> "Group":
-    """Tables for people, by run and title: four digits with their unit, differences in per cent;
-    `say` words the names."""
-    from rich.console import Group
-
-    tables, numbers = [], ("mu", "value", "+-", "tol.")
-    for same in grouped(rows, lambda row: (row["run"], row["title"], title(row))):
-        table = plain_table(
-            *NAMES, numbers=numbers, last="verdict", rows=(_cells(row, say) for row in same)
-        )
-        table.columns[-1].no_wrap = True
-        table.title = plain_text(title(same[0]))
-        tables += [table, ""]
-    return Group(*tables[:-1])
-
-
 def right_within(row: Row, name: str = "run") -> str:
     """A title: the run, by its folder or another column, and what the half-plane is right
     within."""
     size = "unknown" if row["within"] is None else percent_as_written(rounded_up(row["within"]))
     return f"{row[name]}, right within {size}"
-
-
-def _cells(row: Row, say: Callable[[str], str]) -> tuple[str, ...]:
-    value, unsure, friction, high = (row[n] for n in ("value", "uncertainty", "friction", "high"))
-    difference = row["against"] is not None
-    return (
-        *(say(row[name] or "") for name in NAMES),
-        "" if friction is None else plain(friction),
-        percent(value, signed=True) if difference else with_unit(value, row["unit"]),
-        "" if unsure is None else percent(unsure),
-        "" if high is None else percent_as_written(high),
-        row["verdict"] or "",
-    )

@@ -16,11 +16,14 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from functools import cached_property, partial
+from itertools import takewhile
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import InputError, printable
+import numpy as np
+
+from comparisons.common.errors import InputError, nearest, one_line, printable
 from comparisons.common.numbers import finite
 from comparisons.common.provenance import as_json
 from comparisons.figures.convergence import Convergence
@@ -41,7 +44,8 @@ from comparisons.judging.ladder.study import ESCALATE_TO, SUFFICES
 from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
 from comparisons.judging.verdict.headline import headline
 from comparisons.output.arrays import RunArrays
-from comparisons.output.terminal import in_lines, summary
+from comparisons.output.records import RunFigures
+from comparisons.output.terminal import SUMMARY, Printed, in_lines, summary
 from comparisons.studies import meaning
 
 if TYPE_CHECKING:
@@ -56,10 +60,11 @@ RECORDED = {"levels": int} | dict.fromkeys(("hashes", "machine", "versions"), di
 BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
 
-@dataclass(frozen=True)
-class Result:
+@dataclass(frozen=True, repr=False)
+class Result(Printed):
     """What a finished run and its folder both say."""
 
+    name: str  # the folder's, or the scene's
     scene: dict  # as resolved, SI units
     record: dict
     within: float | None  # the least tolerance at which every judged figure holds; None: unknown
@@ -67,7 +72,7 @@ class Result:
     verdict: str  # holds | fails | inconclusive | not compared | not converged
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
-    summary: tuple[str, ...]  # lines that the run printed
+    printed: tuple[str, ...]  # lines that the run printed
     findings: Mapping[str, Findings]  # by study
     load: Callable[[], RunArrays] = field(compare=False, repr=False)
 
@@ -77,8 +82,12 @@ class Result:
         return self.load()
 
     @cached_property
-    def figures(self) -> Figures:
-        return Figures(figure for study in self.findings.values() for figure in study.figures)
+    def figures(self) -> RunFigures:
+        """Every number that is a result; `figures.of(study="contact")` are some of them."""
+        figures = RunFigures(f for study in self.findings.values() for f in study.figures)
+        common = {"run": self.name, "scene": self.scene["name"], "title": self.scene["title"]}
+        figures.common = common | {"within": self.within}
+        return figures
 
     @property
     def models(self) -> tuple[str, ...]:
@@ -102,51 +111,110 @@ class Result:
         """Which model suffices; empty where the run compares nothing."""
         return self.findings.get(LADDER, Findings())
 
-    def shown(self) -> "Text":
-        """The summary for a terminal, which obeys nothing of it."""
+    def figure(self, quantity: str, source: str, study: str = "contact", **at: float) -> Figure:
+        """One of them, by the model or other source that it is of. Raises InputError, with the
+        nearest name, where the run has none.
+
+        study  that found it
+        at     of several friction coefficients: friction=0.1"""
+        figures = self.figures
+        wanted = {"study": study, "quantity": quantity, "source": _model(source)}
+        for part, name in wanted.items():
+            names = sorted({getattr(figure, part) for figure in figures})
+            figures = figures.of(**{part: name})
+            if not figures:
+                near, there = nearest(name, names), ", ".join(names)
+                raise InputError(f"{part}: is {name}; the nearest here is {near}, of {there}")
+        for figure in figures:
+            if at.items() <= figure.at.items():
+                return figure
+        known = ", ".join(_place(figure.at) for figure in figures)
+        raise InputError(f"{quantity}: is not known at {_place(at)}; allowed is {known}")
+
+    def contact(self, model: str = "half-plane") -> dict[str, np.ndarray]:
+        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
+        return self.arrays.contact(self._known(model), self.deciding_friction)
+
+    def stress(self, model: str = "half-plane", friction: float | None = None) -> dict:
+        """Stresses of a model's finest level below the contact, as arrays.
+
+        friction  coefficient; the scene's first by default
+        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
+        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
+        stress across the plane is Poisson's ratio times sx + sz."""
+        frictions = self.scene["load"]["friction"]
+        wanted = frictions[0] if friction is None else friction
+        stresses = self.arrays.stress(self._known(model), wanted)
+        if stresses is None:
+            raise InputError(
+                "stress: this run has none there; allowed is a scene with [stress], at friction "
+                + " or ".join(f"{mu:g}" for mu in frictions)
+            )
+        return stresses
+
+    def _known(self, model: str) -> str:
+        known = self.arrays.models
+        if _model(model) not in known:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(known)}")
+        return _model(model)
+
+    @property
+    def summary(self) -> str:
+        """Title, the verdict and what to do next, in at most ten lines."""
+        return "\n".join(takewhile(bool, self.printed[:SUMMARY]))
+
+    def tables(self) -> "Text":
+        """What the run printed; a terminal obeys nothing of it."""
         from rich.text import Text
 
-        return Text("\n".join(map(printable, self.summary)), no_wrap=True, overflow="ignore")
+        return Text("\n".join(map(printable, self.printed)), no_wrap=True, overflow="ignore")
 
-    def write(self, folder: Path) -> None:
-        """Write result.json."""
-        (folder / FILE).write_text(as_json(content_of(self)), encoding="utf-8")
+    @property
+    def result(self) -> dict:
+        """The content of result.json."""
+        findings = self.findings.items()
+        return {
+            "schema": SCHEMA,
+            **{name: getattr(self, name) for name in SAID},
+            "next": list(self.next),
+            "printed": list(self.printed),
+            "suffices": self.ladder.said(SUFFICES),
+            "escalate_to": self.ladder.said(ESCALATE_TO),
+            "coverage": COVERAGE,
+            "figures": [_figure(figure) for figure in self.figures],
+            "series": [_series(study, item) for study, known in findings for item in known.series],
+            "statements": [
+                _named(study, item) | {"text": item.text}
+                for study, known in findings
+                for item in known.statements
+            ],
+        }
 
 
 def result_of(run: Run) -> Result:
+    return Result(**said_of(run))
+
+
+def write_result(result: Result, folder: Path) -> None:
+    """Write result.json."""
+    (folder / FILE).write_text(as_json(result.result), encoding="utf-8")
+
+
+def said_of(run: Run) -> dict[str, object]:
+    """The fields of a finished run's `Result`."""
     said = headline(run)
-    return Result(
-        scene=run.problem.surface.as_dict(run.problem.scene),
-        record=run.record,
-        within=said.within.size,
-        within_words=said.within.sentence,
-        verdict=said.kind,
-        why=said.sentence,
-        next=said.paste,
-        summary=in_lines(summary(run)),
-        findings=run.findings,
-        load=partial(RunArrays.of, run),
-    )
-
-
-def content_of(result: Result) -> dict:
-    """The content of a result.json."""
-    findings = result.findings.items()
     return {
-        "schema": SCHEMA,
-        **{name: getattr(result, name) for name in SAID},
-        "next": list(result.next),
-        "summary": list(result.summary),
-        "suffices": result.ladder.said(SUFFICES),
-        "escalate_to": result.ladder.said(ESCALATE_TO),
-        "coverage": COVERAGE,
-        "figures": [_figure(figure) for figure in result.figures],
-        "series": [_series(study, item) for study, known in findings for item in known.series],
-        "statements": [
-            _named(study, item) | {"text": item.text}
-            for study, known in findings
-            for item in known.statements
-        ],
+        "name": str(run.directory or run.problem.scene.name),
+        "scene": run.problem.surface.as_dict(run.problem.scene),
+        "record": run.record,
+        "within": said.within.size,
+        "within_words": said.within.sentence,
+        "verdict": said.kind,
+        "why": said.sentence,
+        "next": said.paste,
+        "printed": in_lines(summary(run)),
+        "findings": run.findings,
+        "load": partial(RunArrays.of, run),
     }
 
 
@@ -183,14 +251,24 @@ def _result(content: Mapping, folder: Path) -> Result:
         for entry in content[kind]:
             studies.setdefault(entry["study"], ([], [], []))[place].append(read(entry))
     result = Result(
+        name=one_line(str(folder)),
         **{name: content[name] for name in SAID},
-        **{name: tuple(map(str, content[name])) for name in ("next", "summary")},
+        **{name: tuple(map(str, content[name])) for name in ("next", "printed")},
         findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
         load=partial(RunArrays.read, folder),
     )
     if not result.figures:  # which raises ValueError, too, where two have one name
         raise ValueError("figures: has none")
     return result
+
+
+def _place(at: Mapping[str, float]) -> str:
+    return " and ".join(f"{name} = {value:g}" for name, value in at.items()) or "no other place"
+
+
+def _model(name: str) -> str:
+    """Both ways of writing a model's name, as figures have it."""
+    return name.replace("-", "_")
 
 
 def _figure(figure: Figure) -> dict:

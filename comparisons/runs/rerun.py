@@ -17,7 +17,7 @@ from comparisons.figures.moved import ROUNDING, Item, Moved, Movement, items_of,
 from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
 from comparisons.models.problem import MOST_LEVELS, Levels
 from comparisons.output.arrays import FILE as ARRAYS
-from comparisons.output.flat_csv import Records
+from comparisons.output.records import Records
 from comparisons.output.result import BUILT_OTHERWISE, FILE, Result, read_result, result_of
 from comparisons.output.terminal import STYLES, Printed, plain_table
 from comparisons.runs.run import Known, run

@@ -19,7 +19,7 @@ from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
 from comparisons.output.result import FILE as RESULT
-from comparisons.output.result import result_of
+from comparisons.output.result import result_of, write_result
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh
 
@@ -49,7 +49,7 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
             tasks.result(key)
         files = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
         record = found.record | {"files": sorted([*files, RESULT, REPORT, PDF])}
-        replace(found, record=record).write(folder)
+        write_result(replace(found, record=record), folder)
     callback("drawing the report")
     page = attempted("report", partial(_page, outcome))
     if drawn := isinstance(page, str):

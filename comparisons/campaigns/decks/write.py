@@ -16,8 +16,8 @@ from comparisons.campaigns.decks.problem import MM, MPA, DeckBody, DeckProblem, 
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import publish
 from comparisons.figures.quantity import MODELS
-from comparisons.output.flat_csv import Records
 from comparisons.output.page.html import rendered
+from comparisons.output.records import Records
 from comparisons.output.terminal import Printed
 from comparisons.runs.run import posed
 from comparisons.scenes.scene import Scene

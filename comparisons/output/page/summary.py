@@ -110,7 +110,7 @@ class Reports:
         from rich.text import Text
 
         if self.summary is None:
-            return Group(*(report.result.shown() for report in self.reports))
+            return Group(*(report.result.tables() for report in self.reports))
         table = Table("scene", "verdict", "report", box=None, pad_edge=False)
         for report in self.reports:
             pages = "\n".join(str(path) for path in (report.page, report.pdf) if path is not None)

@@ -16,7 +16,7 @@ from scenes import PROJECT, STEADY, as_toml, python
 
 from comparisons.cli import app, main
 from comparisons.commands import arguments
-from comparisons.output.result import content_of, result_of
+from comparisons.output.result import result_of
 from comparisons.scenes.files import scene_names
 
 pytestmark = pytest.mark.usefixtures("undrawn")  # what runs in this process
@@ -149,7 +149,7 @@ def test_no_module_of_the_working_folder_is_run(tmp_path):
 
 def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
     title = "=1+2\x1b]0;owned\x07\x9b31m"
-    result = content_of(result_of(smooth_outcome))
+    result = result_of(smooth_outcome).result
     result = result | {"scene": result["scene"] | {"title": title}}
     (tmp_path / "result.json").write_text(json.dumps(result))
     texts = []

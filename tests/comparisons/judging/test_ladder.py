@@ -14,7 +14,7 @@ from comparisons.figures.figure import Statement
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.ladder import study as ladder
 from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT
-from comparisons.output.result import content_of, result_of
+from comparisons.output.result import result_of
 
 STIFFER = 1.01
 
@@ -68,7 +68,7 @@ def test_the_half_plane_has_its_model_errors(wavy_outcome):
 def test_a_run_answers_for_its_half_plane_alone(wavy_outcome):
     """Hertz fails, the run does not; result.json names what suffices."""
     assert wavy_outcome.exit_status == ExitStatus.DONE
-    content = json.loads(json.dumps(content_of(result_of(wavy_outcome))))
+    content = json.loads(json.dumps(result_of(wavy_outcome).result))
     assert content["suffices"] == "half_plane"
     assert content["escalate_to"] is None
 

@@ -10,8 +10,9 @@ from scenes import STEADY
 from comparisons.cli import main
 from comparisons.common.numbers import rounded_up
 from comparisons.common.provenance import as_json
-from comparisons.output.flat_csv import COLUMNS, judged_rows, tidy_rows
-from comparisons.output.result import content_of, result_of
+from comparisons.output.flat_csv import judged_rows, tidy_rows
+from comparisons.output.records import COLUMNS
+from comparisons.output.result import result_of
 from comparisons.studies import meaning
 
 
@@ -22,7 +23,7 @@ def runs(tmp_path_factory, smooth_outcome, wavy_outcome, finish):
     alone = finish(STEADY, ("half_plane",))
     for name, outcome in (("a", smooth_outcome), ("deep/b", wavy_outcome), ("c", alone)):
         (folder / name).mkdir(parents=True)
-        (folder / name / "result.json").write_text(as_json(content_of(result_of(outcome))))
+        (folder / name / "result.json").write_text(as_json(result_of(outcome).result))
     (folder / ".part-x").mkdir()
     (folder / ".part-x" / "result.json").write_text("{")
     return folder

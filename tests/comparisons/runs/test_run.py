@@ -27,7 +27,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.output.page.tables.verification import commands
-from comparisons.output.result import FILE, content_of, read_result, result_of
+from comparisons.output.result import FILE, read_result, result_of
 from comparisons.runs.rerun import rerun
 from comparisons.runs.run import level_cache, planned, run, solve
 from comparisons.scenes.scene import Scene
@@ -49,7 +49,7 @@ def smooth(tmp_path_factory, said):
 
 def figures(outcome) -> dict:
     """result.json without what may differ from run to run."""
-    return without_cost(json.loads(json.dumps(content_of(result_of(outcome)))))
+    return without_cost(json.loads(json.dumps(result_of(outcome).result)))
 
 
 def values(outcome, model, friction=0.0) -> dict[str, float]:
@@ -131,7 +131,7 @@ class TestSmooth:
 
     def test_files(self, smooth):
         out = smooth.directory
-        read, content = read_result(out), content_of(result_of(smooth))
+        read, content = read_result(out), result_of(smooth).result
         written = {str(p.relative_to(out)) for p in out.rglob("*") if p.is_file()}
         assert {*read.record["files"]} == {*written, "report.pdf"}
         content["record"] |= {"files": read.record["files"]}

@@ -12,7 +12,7 @@ from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.level import Solution
 from comparisons.models.problem import Levels
-from comparisons.output.result import read_result, result_of
+from comparisons.output.result import read_result, result_of, write_result
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 
@@ -89,7 +89,7 @@ def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank, tmp_p
     assert "tolerance" not in said.next
     [peak, _] = run.model_errors
     assert abs(peak.value) + peak.numerical < 2e-3  # half-planes are no worse on few samples
-    result_of(run).write(tmp_path)
+    write_result(result_of(run), tmp_path)
     read = read_result(tmp_path).figures
     assert read.one(study="model_error", quantity="peak_pressure").unknown == peak.unknown
 

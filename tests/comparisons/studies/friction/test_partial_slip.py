@@ -14,7 +14,6 @@ from comparisons.figures.quantity import MODELS
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import Case, unsolved
 from comparisons.models.plan import make_plan
-from comparisons.output.flat_csv import rows_of
 from comparisons.output.result import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
@@ -118,7 +117,7 @@ def test_page_tables_and_files_have_it(cycled):
     columns = np.genfromtxt(cycled.directory / "half_plane/partial_slip.csv", delimiter=",").T
     assert np.all(np.abs(columns[2][1:]) <= columns[1][1:] * (1.0 + 1e-9))
     result = read_result(cycled.directory)
-    lengths = [r["value"] for r in rows_of(result, "made") if r["quantity"] == "stick_length"]
+    lengths = [r["value"] for r in result.figures.rows if r["quantity"] == "stick_length"]
     assert lengths[0] == values(cycled)["stick_length"]
 
 

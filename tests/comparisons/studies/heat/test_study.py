@@ -11,7 +11,6 @@ from scenes import BOTH_CONDUCT, GROUND, QUICK, changed, refound, resolved, run_
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.presentation import lines_of, parts_of
-from comparisons.output.flat_csv import rows_of
 from comparisons.output.junit import run_cases_of
 from comparisons.output.result import read_result
 from comparisons.runs.run import run
@@ -168,7 +167,7 @@ def test_thermal_stresses_in_every_output(stressed):
         assert shown[STUDY.quantities[name].label][-1] == "agree"
         assert float(shown[STUDY.quantities[f"{name}{WITHOUT}"].label][2].split()[0]) > 0.0
     assert shown[STUDY.quantities[f"sx_heated{WITHOUT}"].label][3] == "199 ± 5 MPa"
-    rows = {row["quantity"]: row for row in rows_of(result, "made") if not row["against"]}
+    rows = {row["quantity"]: row for row in result.figures.rows if not row["against"]}
     assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
 
 
