@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from analytic.material import Law
     from comparisons.figures.figure import Figure, Part
     from comparisons.judging.study import Run
     from comparisons.models.level import Level, Solution
@@ -215,6 +216,12 @@ def _at_first(posed: "Problem", fields: bool) -> "Problem":
     """A problem at its first friction coefficient alone."""
     posed = posed.under(posed.scene.load.friction[0])
     return posed if fields else replace(posed, window=None)
+
+
+def lawed(law: "Law") -> dict[str, object]:
+    """Fields of a body of that law of elasticity."""
+    constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
+    return {"law": law.name} | ({"murnaghan": constants} if constants else {})
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:

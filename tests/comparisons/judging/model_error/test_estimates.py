@@ -1,9 +1,7 @@
 """Estimates are larger than the effects: on every point of the maps, and in the stresses."""
 
-from dataclasses import replace
-
 import pytest
-from scenes import STEEL, finite_elements, half_plane_at, problem, resolved
+from scenes import STEEL, changed, finite_elements, half_plane_at, lawed, problem, resolved
 
 from analytic.material import Law
 from comparisons.grid.groups import scene_with
@@ -60,11 +58,8 @@ def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
     [open_law] = open_laws(plain.scene)
     peaks = []
     for law in (Law(), *open_law.probes.values()):
-        constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
-        fields = {"finite_element.deformation": "finite"}
-        for body in open_law.bodies:
-            fields |= {f"{body}.law": law.name, f"{body}.murnaghan": constants}
-        posed = replace(plain, scene=plain.scene.unchecked(fields))
+        bodies = dict.fromkeys(open_law.bodies, lawed(law))
+        posed = problem(changed(tables, **bodies, finite_element={"deformation": "finite"}))
         peaks.append(float(finite_elements(posed).solution.pressure.max()))
         assert "law_of_elasticity" not in estimates(posed, Shown(peaks[-1], peaks[-1]))
     bound = estimates(plain, Shown(peaks[0], peaks[0]))["law_of_elasticity"]["peak_pressure"]

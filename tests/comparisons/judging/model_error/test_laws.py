@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, finite_elements, problem, resolved, run_of
+from scenes import STEEL, finite_elements, lawed, problem, resolved, run_of
 
 from analytic.material import Law
 from comparisons.judging.effects.catalogue import LAW as EFFECT
@@ -24,11 +24,6 @@ def scene(body: dict, roller: dict | None = None, **tables: dict) -> dict:
     return {"roller": {"radius": 8e-3, **(roller or body)}, "body": body, "load": load, **tables}
 
 
-def lawed(law: Law) -> dict:
-    constants = law.murnaghan and dict(zip("lmn", law.murnaghan, strict=True))
-    return STEEL | {"law": law.name} | ({"murnaghan": constants} if constants else {})
-
-
 @pytest.fixture(scope="module")
 def solved_with():
     """`solved_with(law)`: figures of both bodies of that law at finite deformation, coarsely."""
@@ -36,7 +31,7 @@ def solved_with():
 
     def solved(law: Law) -> dict[str, float]:
         if law not in known:
-            posed = problem(scene(lawed(law), finite_element=STRAIN))
+            posed = problem(scene(STEEL | lawed(law), finite_element=STRAIN))
             known[law] = values_of(finite_elements(posed), posed)
         return known[law]
 

@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, finite_elements, problem
+from scenes import STEEL, changed, finite_elements, lawed, problem
 
 from analytic.material import Law, Material
 from analytic.material.third_order import LENGTH_OVER_PEAK, peak_change
@@ -206,12 +206,9 @@ RATIO = 0.05  # half-width over radius
 def under_rigid_roller(material: Material) -> tuple[float, float]:
     """Peak pressure [Pa] and contact length [m]."""
     body = {"youngs_modulus": material.youngs_modulus, "poissons_ratio": material.poissons_ratio}
-    body["law"] = material.law.name
-    if material.law.murnaghan is not None:
-        body["murnaghan"] = dict(zip("lmn", material.law.murnaghan, strict=True))
     tables = {
         "roller": {"radius": 5e-3, "rigid": True},
-        "body": body,
+        "body": body | lawed(material.law),
         "load": {"hertz_peak_pressure": 0.5 * RATIO * material.plane_strain_modulus},
         "finite_element": {"deformation": "finite"},
     }
