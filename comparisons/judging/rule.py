@@ -159,11 +159,11 @@ def by_repetition(
     coarsest = [model.levels[0] for model in models]
     first = read(*coarsest)
     checks = [
-        read(*coarsest[:k], model.far_boundary_check, *coarsest[k + 1 :])
+        read(*coarsest[:k], level, *coarsest[k + 1 :])
         for k, model in enumerate(models)
-        if model.far_boundary_check is not None
+        for level in model.repeated.get("domain", ())
     ]
-    longer = zip_longest(*(model.longer_increments for model in models))
+    longer = zip_longest(*(model.repeated.get("increments", ()) for model in models))
     pairs = (zip(levels, coarsest, strict=True) for levels in longer)
     increments = [read(*(level or first for level, first in pair)) for pair in pairs]
     return {

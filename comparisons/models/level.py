@@ -1,7 +1,9 @@
 """One model's solution on one level of refinement, as data that every model fills in."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -225,10 +227,9 @@ class Solution:
 
     name: str
     levels: tuple[Level, ...]
-    # the coarsest level again on a block of half the size, where it is checked
-    far_boundary_check: Level | None = None
-    # where a body flows: the coarsest level again by longer increments, the longest first
-    longer_increments: tuple[Level, ...] = ()
+    # the coarsest level again, by the part of an uncertainty that it shows: "domain", on a block of
+    # half the size; "increments", where a body flows by longer ones, the longest first
+    repeated: Mapping[str, tuple[Level, ...]] = field(default_factory=dict)
 
     @property
     def finest(self) -> Level:
@@ -242,8 +243,7 @@ class Solution:
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
         total: dict[str, float] = {}
-        again = self.far_boundary_check, *self.longer_increments
-        for level in filter(None, (*self.levels, *again)):
+        for level in chain(self.levels, *self.repeated.values()):
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total

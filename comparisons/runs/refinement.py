@@ -4,7 +4,7 @@ In: a scene and its plan. Out: the levels of every model, and why there are no m
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from itertools import count
+from itertools import chain, count
 
 import numpy as np
 
@@ -92,9 +92,11 @@ class _Levels:
         names = scene.plan.models
         self.models = {name: scene_model(name, scene.problem, fields=True) for name in names}
         elements = self.models.get("finite_element")
-        self.checks = [replace(elements, half_block=True)] if self.plan.domain_check else []
+        self.checks: dict[str, list[Model]] = {}  # by the part of an uncertainty that they show
+        if self.plan.domain_check:
+            self.checks["domain"] = [replace(elements, half_block=True)]
         if self.plan.increments_check:
-            self.checks += [replace(elements, times=times) for times in LONGER]
+            self.checks["increments"] = [replace(elements, times=times) for times in LONGER]
         self.levels: dict[str, list[Levels]] = {name: [] for name in names}
         self.patches: np.ndarray | None = None  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
@@ -120,7 +122,7 @@ class _Levels:
         if "finite_element" in self.models:
             for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
                 self.add(self.models["finite_element"], number)
-            for model in self.checks:
+            for model in chain.from_iterable(self.checks.values()):
                 self.add(model)
         if "half_plane" in self.models:
             begin(self.solved(len(self.problem.pitches), ["half_plane"]))
@@ -172,24 +174,20 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """With the far boundary at half the distance, longer increments, and why that is all."""
-        again: dict[Model, Levels] = {}
-        for model in self.checks:
+        again: dict[str, list[Levels]] = {part: [] for part in self.checks}
+        for part, model in ((part, model) for part, of in self.checks.items() for model in of):
             try:
-                again[model] = self.tasks.result(self.add(model))
+                again[part].append(self.tasks.result(self.add(model)))
             except FemError:  # the longest increments Newton's method may not bear
                 if model.times < max(LONGER):
                     raise
         cases = []
         for case in solved.cases:
-            runs = dict(case.runs)
-            for model, levels in again.items():
-                run, level = runs[model.name], levels[case.friction]
-                if model.half_block:
-                    runs[model.name] = replace(run, far_boundary_check=level)
-                else:
-                    longer = *run.longer_increments, level
-                    runs[model.name] = replace(run, longer_increments=longer)
-            cases.append(replace(case, runs=runs))
+            repeated = {p: tuple(of[case.friction] for of in every) for p, every in again.items()}
+            if repeated:
+                run = replace(case.runs["finite_element"], repeated=repeated)
+                case = replace(case, runs={**case.runs, run.name: run})
+            cases.append(case)
         return replace(solved, cases=tuple(cases), refinement=why)
 
     def spent(self, runs: Mapping[str, Solution]) -> str | None:

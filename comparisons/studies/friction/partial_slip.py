@@ -88,12 +88,12 @@ def solvers(solved: Solved) -> dict[str, Solve]:
 def _loaded(run: Solution, load: Solve, count: int) -> Solution:
     """A model's levels under the path of loads, the coarsest also on a block of half the size and
     by half as many increments."""
-    levels, smaller, fewer = tuple(load(level, increments=count) for level in run.levels), None, ()
-    if run.far_boundary_check is not None:
-        smaller = load(run.levels[0], increments=count, half_block=True)
+    levels, repeated = tuple(load(level, increments=count) for level in run.levels), {}
+    if "domain" in run.repeated:
+        repeated["domain"] = (load(run.levels[0], increments=count, half_block=True),)
     if levels[0].is_stepped:
-        fewer = (load(run.levels[0], increments=count // 2),)
-    return Solution(run.name, levels, smaller, fewer)
+        repeated["increments"] = (load(run.levels[0], increments=count // 2),)
+    return Solution(run.name, levels, repeated)
 
 
 def slip_figures(case: Case, models: Sequence[Solution]) -> dict[str, Figure]:

@@ -111,12 +111,12 @@ def _heated(
     block."""
     models, solvers = [], dict(zip(MODELS, (by_half_plane, by_elements), strict=True))
     for name, run in case.runs.items():
-        solve, check = solvers[name], None
+        solve, repeated = solvers[name], {}
         levels = tuple(solve(case.problem, level) for level in run.levels)
         if solve is by_elements:
-            first = run.far_boundary_check or run.levels[0]
-            check = solve(case.problem, first, **smaller)
-        models.append(Solution(name, levels, check))
+            first, *_ = run.repeated.get("domain", run.levels)
+            repeated["domain"] = (solve(case.problem, first, **smaller),)
+        models.append(Solution(name, levels, repeated))
     return models
 
 

@@ -32,7 +32,7 @@ def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outco
     """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
-    run = Solution("finite_element", levels, far_boundary_check=levels[1])
+    run = Solution("finite_element", levels, {"domain": levels[1:2]})
     stated = judged(run, smooth_outcome.problem)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
     assert stated.uncertainty.parts["domain"] == pytest.approx(DOMAIN * abs(second - first) / last)
@@ -75,7 +75,7 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ru
 def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
     """Errors that both models have on each level leave none in their difference."""
     half_plane = smooth_outcome.runs["half_plane"]
-    same = replace(half_plane, name="finite_element", far_boundary_check=None)
+    same = replace(half_plane, name="finite_element")
     difference = judged(half_plane, smooth_outcome.problem, same)["peak_pressure"]
     alone = judged(half_plane, smooth_outcome.problem)["peak_pressure"]
     assert alone.uncertainty.parts["discretisation"] > 1e-6
@@ -84,8 +84,8 @@ def test_a_difference_has_its_own_sequence(smooth_outcome: Run):
 
 def test_what_either_model_repeats_counts_in_their_difference():
     """Levels that are numbers: one on a smaller block, the other there and by longer increments."""
-    one = Solution("one", (5.0, 4.0), 6.0)
-    other = Solution("other", (3.0, 3.5), 3.2, (2.0, 2.6))
+    one = Solution("one", (5.0, 4.0), {"domain": (6.0,)})
+    other = Solution("other", (3.0, 3.5), {"domain": (3.2,), "increments": (2.0, 2.6)})
 
     def read(one: float, other: float) -> dict[str, float]:
         return {"difference": one - other}

@@ -42,6 +42,7 @@ PARTS = {
     "domain": "far boundary",
     "increments": "increments",
 }
+REPEATED = ("domain", "increments")  # parts by a coarsest level that is solved again
 WORDING = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 _BOUNDS = {"lowest": LOWEST_ORDER, "regular": REGULAR, "irregular": IRREGULAR}
 _BOUNDS = {name: plain(value) for name, value in _BOUNDS.items()}
@@ -65,8 +66,7 @@ def _levels_table(
     run: Run, title: str, model: Solution, figures: Figures, before: Sequence[tuple[str, ...]] = ()
 ) -> TextTable:
     """Figures on the levels of a model, below rows of texts on each level."""
-    has = {"domain": model.far_boundary_check, "increments": model.longer_increments}
-    parts = [name for name in PARTS if has.get(name, True)]
+    parts = [name for name in PARTS if name not in REPEATED or model.repeated.get(name)]
     head = ("", *(f"level {k + 1}" for k in range(len(model.levels))), "extrapolated", "order")
     head += (*(PARTS[name] for name in parts), "total")
     rows = [row + ("",) * (len(head) - len(row)) for row in before]
