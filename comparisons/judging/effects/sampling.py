@@ -11,8 +11,7 @@ from math import inf
 from comparisons.common.numbers import significant, with_unit
 from comparisons.common.tasks import LAST, Tasks
 from comparisons.judging.effects.estimates import Sizes
-from comparisons.judging.model_error.quantities_of_interest import quantities_of
-from comparisons.judging.rule import relative_differences
+from comparisons.judging.rule import quantities_of, relative_differences
 from comparisons.judging.study import Solved
 from comparisons.models.model import scene_model
 from comparisons.models.problem import Problem

@@ -28,12 +28,14 @@ from comparisons.judging.effects.catalogue import EFFECTS, LAW
 from comparisons.judging.effects.laws import LawSpread, OpenLaw, law_spread
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.contributions import SplitVariants
-from comparisons.judging.model_error.quantities_of_interest import (
+from comparisons.judging.rule import (
     LARGEST,
     QuantitiesOfInterest,
+    formal_order,
+    judged,
     quantities_of,
+    relative_resolution,
 )
-from comparisons.judging.rule import formal_order, judged, relative_resolution
 from comparisons.judging.study import MODEL_ERROR, Case
 from comparisons.models.model import Model
 

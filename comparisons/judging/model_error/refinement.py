@@ -20,15 +20,9 @@ from comparisons.judging.effects.catalogue import (
     model_with,
 )
 from comparisons.judging.effects.selection import ASKED, EffectSelection
-from comparisons.judging.model_error.contributions import (
-    NotComputedError,
-    split_variants,
-)
+from comparisons.judging.model_error.contributions import NotComputedError, split_variants
 from comparisons.judging.model_error.model_error import Solutions, figure_of
-from comparisons.judging.model_error.quantities_of_interest import (
-    QuantitiesOfInterest,
-    quantities_of,
-)
+from comparisons.judging.rule import QuantitiesOfInterest, quantities_of
 from comparisons.judging.study import Case, Solved
 from comparisons.models.level import Level
 from comparisons.models.model import Model

@@ -12,13 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import (
-    UNKNOWN,
-    listed,
-    percent,
-    plain,
-    with_unit,
-)
+from comparisons.common.numbers import UNKNOWN, listed, percent, plain, with_unit
 from comparisons.drawing import curves, style
 from comparisons.drawing.blocks import Block, Note, Pictures, TextTable
 from comparisons.drawing.tables import figure_table

@@ -8,7 +8,7 @@ import pytest
 from scenes import STEEL, changed, problem
 
 from comparisons.judging.model_error.contributions import NotComputedError
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.models.model import Model
 from comparisons.models.problem import Problem
 

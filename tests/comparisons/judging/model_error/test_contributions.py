@@ -11,12 +11,9 @@ import pytest
 
 from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import (
-    NotComputedError,
-    split_variants,
-)
+from comparisons.judging.model_error.contributions import NotComputedError, split_variants
 from comparisons.judging.model_error.model_error import Solutions
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.judging.study import Case
 
 COUPLED = "normal_tangential_coupling"

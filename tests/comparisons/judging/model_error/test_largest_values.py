@@ -14,7 +14,7 @@ from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging.model_error.contributions import SplitVariants
 from comparisons.judging.model_error.model_error import Solutions
-from comparisons.judging.model_error.quantities_of_interest import QuantitiesOfInterest
+from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.judging.study import Case
 
 PLACES = np.array([-30e-6, 0.0, 40e-6])

@@ -12,10 +12,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.judging import comparison
 from comparisons.judging.model_error import study as model_error
 from comparisons.judging.model_error.error_budget import error_budget
-from comparisons.judging.study import (
-    Solved,
-    unsolved,
-)
+from comparisons.judging.study import Solved, unsolved
 from comparisons.judging.verdict.headline import validity
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
