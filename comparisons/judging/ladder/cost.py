@@ -6,8 +6,9 @@ memory; the cheapest setting for each tolerance; one table and one picture.
 Errors are relative, the largest of any friction coefficient, against the whole model; where nothing
 was compared, against the finest level of the last model. No error below the reference's uncertainty
 is known. Where the finite elements drop an assumption of the half-plane, its model error counts:
-more time does not help. Every run shows the levels that it has solved. `crosscheck cost` adds other
-elements, other operators, coarser and finer ones. Seconds are those of the stages of a level."""
+more time does not help. Every run shows the levels that it has solved, one of both models other
+elements on the coarsest, too. `crosscheck cost` adds other operators, coarser and finer levels.
+Seconds are those of the stages of a level."""
 
 import math
 import re
@@ -68,8 +69,7 @@ finer one of its model does. Seconds are of one level, on one core."""
 
 @dataclass(frozen=True)
 class Method:
-    """A model that `crosscheck cost` adds on levels of some numbers; one before the first is
-    coarser."""
+    """A model that is added on levels of some numbers; one before the first is coarser."""
 
     name: str
     solver: str  # of a Model
@@ -87,8 +87,23 @@ class Method:
         return Model(key, self.solver, self.effects, label=self.name, sets=self.fields)
 
 
+def other_elements(problem: Problem, *numbers: int) -> list[Method]:
+    """P1 and P3 on levels of these numbers; none where only P2 elements solve the scene."""
+    if problem.scene.finite_element.nonlinear:
+        return []
+    return [
+        Method(
+            f"{LABELS['finite_element']}, {element}",
+            "finite elements",
+            numbers,
+            {"finite_element.element": element},
+        )
+        for element in ("P1", "P3")
+    ]
+
+
 def methods_of(problem: Problem) -> list[Method]:
-    """Those that apply beside what every run solves."""
+    """Those that `crosscheck cost` asks for and apply, beside what every run solves."""
     scene, settings, own = problem.scene, problem.scene.finite_element, LABELS["finite_element"]
     plane, analytic = LABELS["half_plane"], partial(Method, solver="analytic")
     elements = partial(Method, solver="finite elements")
@@ -96,11 +111,9 @@ def methods_of(problem: Problem) -> list[Method]:
         analytic(plane, numbers=(0, 4, 5), effects=problem.half_plane_effects),
         elements(own, numbers=(0,)),
     ]
-    if settings.nonlinear:  # which P2 elements alone solve
+    methods += other_elements(problem, 0, 1, 2)
+    if settings.nonlinear:
         methods.append(elements(f"{own}, linear", numbers=(1, 2), fields=LINEAR))
-    else:
-        coarse = {f"{own}, {p}": {"finite_element.element": p} for p in ("P1", "P3")}
-        methods += [elements(n, numbers=(0, 1, 2), fields=f) for n, f in coarse.items()]
     for one in candidates.CANDIDATES:
         if held := one.carries(problem, contained(scene), 0.0):
             methods.append(analytic(f"{plane}, {one.label}", numbers=(1, 2, 3), effects=held))
@@ -108,19 +121,18 @@ def methods_of(problem: Problem) -> list[Method]:
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
-    """Make known what `crosscheck cost` asks for; other runs solve nothing for this."""
-    if not solved.runs:
+    """Make known what is solved for this alone, while the finite elements are."""
+    if tuple(solved.runs) == MODELS[:1]:
         _asked(solved, tasks)
 
 
 def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
-    """Methods, numbers of levels and keys of their tasks, those that fit the budget of time; none
-    but for `crosscheck cost`."""
-    if not solved.all_methods:
-        return []
+    """Methods, numbers of levels and keys of their tasks, those that fit the budget of time."""
     problem, left, asked = solved.problem, solved.problem.time, []
-    patches = flowing_contact(problem)
-    for method in methods_of(problem):
+    methods = other_elements(problem, 1) if solved.plan.compares else []
+    methods = methods_of(problem) if solved.all_methods else methods
+    patches = flowing_contact(problem) if methods else None
+    for method in methods:
         for number in method.numbers if method.kind in solved.plan.models else ():
             left -= method.model.cost(problem, number, patches).seconds
             if left > 0.0:

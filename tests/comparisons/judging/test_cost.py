@@ -26,7 +26,9 @@ def test_every_level_of_a_run_is_a_row_measured_by_the_finest():
     outcome = run_of(PLAIN)
     rows, [finest] = rows_of(outcome), [r for r in rows_of(outcome) if r["peak_pressure"] is None]
     levels = [level for model in outcome.runs.values() for level in model.levels]
-    assert len(rows) == len(levels) and finest["model"] == "finite elements"
+    coarse = [r["pitch"] for r in rows if r["model"] in (P1, "finite elements, P3")]
+    assert coarse == [outcome.runs["finite_element"].levels[0].grid.pitch] * 2
+    assert len(rows) == len(levels) + 2 and finest["model"] == "finite elements"
     exact = values_of(outcome.runs["finite_element"].finest, outcome.problem)
     for name, model in (("half-plane", "half_plane"), ("finite elements", "finite_element")):
         mine = [row for row in rows if row["model"] == name]
