@@ -57,17 +57,6 @@ class Early(str):
     """A line that is to stay on a terminal alone: a part of the answer, before the rest."""
 
 
-def within(callback: ProgressCallback, start: float, stop: float) -> ProgressCallback:
-    """The callback of a part of a task that takes the task from the share `start` to `stop`."""
-
-    def of_part(stage: str) -> None:
-        if isinstance(stage, Step):
-            stage = Step(stage, start + (stop - start) * stage.done)
-        callback(stage)
-
-    return of_part
-
-
 @dataclass
 class Stages:
     """Collects seconds by stage; `callback` gets the name of each stage as it begins."""

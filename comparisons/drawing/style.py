@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from itertools import zip_longest
 from pathlib import Path
@@ -98,6 +99,19 @@ def collected_figures() -> "Iterator[list[Figure]]":
             yield drawn
     finally:
         _COLLECTED.reset(token)
+
+
+class Pictures:
+    """Pictures by name: called, each returns its axes, on a figure of pyplot, which a notebook
+    shows by itself."""
+
+    def __init__(self, **draws: "Callable[[], Figure]") -> None:
+        vars(self).update({name: partial(_axes_of, draw) for name, draw in draws.items()})
+
+
+def _axes_of(draw: "Callable[[], Figure]") -> "list[Axes]":
+    with collected_figures():
+        return draw().axes
 
 
 def figure(width: float, height: float) -> "Figure":

@@ -9,7 +9,7 @@ import os
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ from comparisons.common.files import publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
-from comparisons.drawing.style import collected_figures, svgs
+from comparisons.drawing.style import Pictures, svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.groups import (
     Axis,
@@ -54,7 +54,6 @@ from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene, with_settings
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from rich.text import Text
 
     from comparisons.grid.map_picture import Mark
@@ -262,12 +261,12 @@ class Map(Printed):
     def exit_status(self) -> ExitStatus:
         return exit_status(self.content["points"])
 
-    def plot(self) -> "list[Axes]":
-        """The map."""
+    @property
+    def plot(self) -> Pictures:
+        """`plot.map()`."""
         from comparisons.grid.map_picture import map_figure
 
-        with collected_figures():
-            return map_figure(self.content).axes
+        return Pictures(map=partial(map_figure, self.content))
 
     def write(self, folder: str | os.PathLike) -> None:
         """Write map.json and the picture into a folder."""

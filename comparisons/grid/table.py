@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import ExitStatus
 from comparisons.common.numbers import percent, percent_as_written, rounded_up, with_unit
-from comparisons.drawing.style import collected_figures
+from comparisons.drawing.style import Pictures
 from comparisons.figures.quantity import QUANTITIES, error_text
 from comparisons.grid.points import FAILED, exit_status, failures
 from comparisons.grid.sweep import SWEEP, TABLE, rows_of_points, write_sweep
@@ -23,6 +23,7 @@ from comparisons.grid.sweep_picture import (
     Axis,
     has_zones,
     sweep_figure,
+    zone_map_figure,
 )
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
@@ -31,7 +32,6 @@ from comparisons.output.terminal import PLAIN, Printed, plain_table, plain_text
 from comparisons.studies import quantity_of
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from rich.console import Group
     from rich.table import Table
 
@@ -57,10 +57,13 @@ class Sweep(Printed):
     def exit_status(self) -> ExitStatus:
         return exit_status(self.content["points"])
 
-    def plot(self) -> "list[Axes]":
-        """Each figure over the first swept field."""
-        with collected_figures():
-            return sweep_figure(self.content).axes
+    @property
+    def plot(self) -> Pictures:
+        """`plot.sweep()`, each figure over the first swept field; `plot.zones()`, quiescent zones,
+        where there are any."""
+        zones = {"zones": zone_map_figure} if has_zones(self.content) else {}
+        draws = {"sweep": sweep_figure, **zones}
+        return Pictures(**{name: partial(draw, self.content) for name, draw in draws.items()})
 
     def write(self, folder: str | os.PathLike) -> None:
         """Write sweep.json, the table and the pictures into a folder."""

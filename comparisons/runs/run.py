@@ -20,7 +20,7 @@ from comparisons.common.errors import (
 )
 from comparisons.common.files import unfinished
 from comparisons.common.processes import cores
-from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
+from comparisons.common.progress import ProgressCallback, Stages, no_progress
 from comparisons.common.provenance import (
     JUDGING_CODE,
     LEVEL_CODE,
@@ -64,7 +64,6 @@ ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 # What shapes levels, and the answers of studies that are kept beside them.
 CODE = (*LEVEL_CODE, *JUDGING_CODE)
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
-SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
@@ -88,8 +87,8 @@ def run(
     known: Known = Known(),
 ) -> Run:
     """`solve_scene`, then `finish`: a run whose files are in `out`, or nowhere (None)."""
-    solved = solve_scene(scene, out, models, within(callback, 0.0, SOLVED), opens, known)
-    finish(solved, within(callback, SOLVED, 1.0))
+    solved = solve_scene(scene, out, models, callback, opens, known)
+    finish(solved, callback)
     return solved
 
 

@@ -227,7 +227,7 @@ def test_a_finished_map_prints_and_draws(pyplot):
     content = finished_map("thickness-friction")
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
-    assert "Model error of the half-plane" in shown.plot()[0].get_title(loc="left")
+    assert "Model error of the half-plane" in shown.plot.map()[0].get_title(loc="left")
 
 
 def test_what_functions_return_is_of_one_kind(finished):
