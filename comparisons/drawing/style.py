@@ -101,8 +101,8 @@ def collected_figures() -> "Iterator[list[Figure]]":
         _COLLECTED.reset(token)
 
 
-class Pictures:
-    """Pictures by name: called, each returns its axes, on a figure of pyplot, which a notebook
+class NamedPictures:
+    """NamedPictures by name: called, each returns its axes, on a figure of pyplot, which a notebook
     shows by itself."""
 
     def __init__(self, **draws: "Callable[[], Figure]") -> None:

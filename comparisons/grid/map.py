@@ -18,7 +18,7 @@ from comparisons.common.files import publish
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
-from comparisons.drawing.style import Pictures, svgs
+from comparisons.drawing.style import NamedPictures, svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.groups import (
     Axis,
@@ -262,11 +262,11 @@ class Map(Printed):
         return exit_status(self.content["points"])
 
     @property
-    def plot(self) -> Pictures:
+    def plot(self) -> NamedPictures:
         """`plot.map()`."""
         from comparisons.grid.map_picture import map_figure
 
-        return Pictures(map=partial(map_figure, self.content))
+        return NamedPictures(map=partial(map_figure, self.content))
 
     def write(self, folder: str | os.PathLike) -> None:
         """Write map.json and the picture into a folder."""

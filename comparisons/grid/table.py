@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import ExitStatus
 from comparisons.common.numbers import percent, percent_as_written, rounded_up, with_unit
-from comparisons.drawing.style import Pictures
+from comparisons.drawing.style import NamedPictures
 from comparisons.figures.quantity import QUANTITIES, error_text
 from comparisons.grid.points import FAILED, exit_status, failures
 from comparisons.grid.sweep import SWEEP, TABLE, rows_of_points, write_sweep
@@ -58,12 +58,12 @@ class Sweep(Printed):
         return exit_status(self.content["points"])
 
     @property
-    def plot(self) -> Pictures:
+    def plot(self) -> NamedPictures:
         """`plot.sweep()`, each figure over the first swept field; `plot.zones()`, quiescent zones,
         where there are any."""
         zones = {"zones": zone_map_figure} if has_zones(self.content) else {}
         draws = {"sweep": sweep_figure, **zones}
-        return Pictures(**{name: partial(draw, self.content) for name, draw in draws.items()})
+        return NamedPictures(**{name: partial(draw, self.content) for name, draw in draws.items()})
 
     def write(self, folder: str | os.PathLike) -> None:
         """Write sweep.json, the table and the pictures into a folder."""
