@@ -1,11 +1,9 @@
 """The pages beside the README say what the program does: names, numbers, commands, links; they are
 a site that opens from disk, in short plain sentences."""
 
-import importlib.util
 import re
 import shlex
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from scenes import PROJECT, page_rows, python
@@ -28,8 +26,6 @@ PAGES = {str(path.relative_to(DOCS).with_suffix("")): path for path in sorted(DO
 SITE = DOCS / "site" / "mkdocs.yml"
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
-
-
 NAMES = re.compile(r"`(\w+)`").findall
 # Words of the program's makers that no reader knows.
 PRIVATE = (
@@ -53,27 +49,20 @@ def test_links_lead_somewhere(path):
             assert heading in map(anchor, heads)
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory) -> Path:
-    """All pages, built strictly: every link and anchor leads somewhere, every page is listed."""
-    if importlib.util.find_spec("material") is None:
-        pytest.skip("mkdocs-material is not installed: pip install crosscheck[docs]")
-    out = tmp_path_factory.mktemp("site")
-    done = python("-m", "mkdocs", "build", "--strict", "-f", SITE, "-d", out)
+def test_the_site_is_built_strictly_and_opens_from_disk_without_a_network(tmp_path):
+    """Every page is listed, every link and anchor leads somewhere; no page loads from the net."""
+    pytest.importorskip("material", reason="mkdocs-material is not installed: extra `docs`")
+    done = python("-m", "mkdocs", "build", "--strict", "-f", SITE, "-d", tmp_path)
     assert done.returncode == 0, done.stderr
-    return out
-
-
-def test_the_site_opens_from_disk_without_a_network(site):
-    pages = sorted(site.rglob("*.html"))
-    assert {str(page.relative_to(site).with_suffix("")) for page in pages} == {*PAGES, "404"}
-    assert (site / "index.html").exists()
-    for page in pages:
-        loaded = re.findall(
-            r"<(?:script|img|link|iframe)[^>]+(?:src|href)=\"?([^\s\">]+)", page.read_text()
-        )
+    pages = {
+        str(path.relative_to(tmp_path).with_suffix("")): path for path in tmp_path.rglob("*.html")
+    }
+    assert pages.keys() == {*PAGES, "404"} and "index" in pages
+    tag = re.compile(r"<(?:script|img|link|iframe)[^>]+(?:src|href)=\"?([^\s\">]+)")
+    for name, page in pages.items():
+        loaded = tag.findall(page.read_text(encoding="utf-8"))
         assert [address for address in loaded if address.startswith(("http", "//"))] == []
-        for address in loaded if page.stem != "404" else ():
+        for address in loaded if name != "404" else ():
             assert (page.parent / address.partition("?")[0]).exists(), address
 
 
