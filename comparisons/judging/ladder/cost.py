@@ -13,8 +13,6 @@ Seconds are those of the stages of a level."""
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import partial
 from itertools import takewhile
 from operator import itemgetter
 from typing import TYPE_CHECKING
@@ -58,6 +56,7 @@ SHOWN = ("peak_pressure", "contact_length", "tau1_max")
 LEAST = 1e-7  # smaller errors are drawn there
 HEIGHT = 3.4  # inches, of the picture
 MARKS = "oDv^<sPX"  # of models
+KINDS = dict(zip(("analytic", "finite elements"), MODELS, strict=True))  # by solver
 Levels = tuple[str, str, Mapping[float, Level]]  # model, kind, one model's level by friction
 # Fields of finite elements that assume small, elastic strains.
 LINEAR = {"finite_element.deformation": "linear", "finite_element.plastic": False}
@@ -67,57 +66,39 @@ is not known of the reference. A star is the cheapest setting that meets all tol
 finer one of its model does. Seconds are of one level, on one core."""
 
 
-@dataclass(frozen=True)
-class Method:
-    """A model that is added on levels of some numbers; one before the first is coarser."""
-
-    name: str
-    solver: str  # of a Model
-    numbers: tuple[int, ...]
-    fields: Mapping[str, object] = field(default_factory=dict)  # of the scene's finite elements
-    effects: frozenset[str] = frozenset()  # that an analytic one has beside the half-plane
-
-    @property
-    def kind(self) -> str:
-        return MODELS[self.solver == "finite elements"]
-
-    @property
-    def model(self) -> Model:
-        key = f"cost-{'-'.join(self.name.split())}"
-        return Model(key, self.solver, self.effects, label=self.name, sets=self.fields)
+Methods = dict[Model, tuple[int, ...]]  # numbers of the levels that models are added on
 
 
-def other_elements(problem: Problem, *numbers: int) -> list[Method]:
+def other_elements(problem: Problem, *numbers: int) -> Methods:
     """P1 and P3 on levels of these numbers; none where only P2 elements solve the scene."""
+    own = LABELS["finite_element"]
+    return {
+        _method(f"{own}, {element}", sets={"finite_element.element": element}): numbers
+        for element in (() if problem.scene.finite_element.nonlinear else ("P1", "P3"))
+    }
+
+
+def methods_of(problem: Problem) -> Methods:
+    """Those that `crosscheck cost` asks for and apply, beside what every run solves; a level before
+    the first is coarser."""
+    plane, own = LABELS["half_plane"], LABELS["finite_element"]
+    half_plane = _method(plane, "analytic", problem.half_plane_effects)
+    methods = {half_plane: (0, 4, 5), _method(own): (0,)} | other_elements(problem, 0, 1, 2)
     if problem.scene.finite_element.nonlinear:
-        return []
-    return [
-        Method(
-            f"{LABELS['finite_element']}, {element}",
-            "finite elements",
-            numbers,
-            {"finite_element.element": element},
-        )
-        for element in ("P1", "P3")
-    ]
-
-
-def methods_of(problem: Problem) -> list[Method]:
-    """Those that `crosscheck cost` asks for and apply, beside what every run solves."""
-    scene, settings, own = problem.scene, problem.scene.finite_element, LABELS["finite_element"]
-    plane, analytic = LABELS["half_plane"], partial(Method, solver="analytic")
-    elements = partial(Method, solver="finite elements")
-    methods = [
-        analytic(plane, numbers=(0, 4, 5), effects=problem.half_plane_effects),
-        elements(own, numbers=(0,)),
-    ]
-    methods += other_elements(problem, 0, 1, 2)
-    if settings.nonlinear:
-        methods.append(elements(f"{own}, linear", numbers=(1, 2), fields=LINEAR))
+        methods[_method(f"{own}, linear", sets=LINEAR)] = 1, 2
     for one in candidates.CANDIDATES:
-        if held := one.carries(problem, contained(scene), 0.0):
-            methods.append(analytic(f"{plane}, {one.label}", numbers=(1, 2, 3), effects=held))
+        if held := one.carries(problem, contained(problem.scene), 0.0):
+            methods[_method(f"{plane}, {one.label}", "analytic", held)] = 1, 2, 3
     return methods
+
+
+def _method(
+    label: str,
+    solver: str = "finite elements",
+    effects: frozenset[str] = frozenset(),
+    sets: Mapping[str, object] = {},
+) -> Model:
+    return Model(f"cost-{'-'.join(label.split())}", solver, effects, label=label, sets=sets)
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -126,18 +107,18 @@ def begin(solved: Solved, tasks: Tasks) -> None:
         _asked(solved, tasks)
 
 
-def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Method, int, str]]:
-    """Methods, numbers of levels and keys of their tasks, those that fit the budget of time."""
+def _asked(solved: Solved, tasks: Tasks) -> list[tuple[Model, int, str]]:
+    """Models, numbers of levels and keys of their tasks, those that fit the budget of time."""
     problem, left, asked = solved.problem, solved.problem.time, []
-    methods = other_elements(problem, 1) if solved.plan.compares else []
+    methods = other_elements(problem, 1) if solved.plan.compares else {}
     methods = methods_of(problem) if solved.all_methods else methods
     patches = flowing_contact(problem) if methods else None
-    for method in methods:
-        for number in method.numbers if method.kind in solved.plan.models else ():
-            left -= method.model.cost(problem, number, patches).seconds
+    for model, numbers in methods.items():
+        for number in numbers if KINDS[model.solver] in solved.plan.models else ():
+            left -= model.cost(problem, number, patches).seconds
             if left > 0.0:
-                how = tasks, problem, number, patches, LAST
-                asked.append((method, number, method.model.announce(*how)))
+                key = model.announce(tasks, problem, number, patches, LAST)
+                asked.append((model, number, key))
     return asked
 
 
@@ -145,7 +126,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
     """A row a level. The reference's own has no error, nor has what a level does not know."""
     found, said = _levels_of_run(solved, before), []
     reference = found[-1]
-    for method, number, key in _asked(solved, tasks):
+    for model, number, key in _asked(solved, tasks):
         try:
             levels = tasks.result(key)
             converged = all(level.converged for level in levels.values())
@@ -154,9 +135,9 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
             why = one_line(str(error) if isinstance(error, EXPECTED) else defect(error))
         if why:
             pitch = with_unit(solved.problem.pitch_of(number), "m", 3)
-            said.append(Statement("left out", f"{method.name} at {pitch}: {why}"))
+            said.append(Statement("left out", f"{model.label} at {pitch}: {why}"))
         else:
-            found.append((method.name, method.kind, levels))
+            found.append((model.label, KINDS[model.solver], levels))
     words, exact, floors = _references(solved, before)
     rows = []
     for name, kind, levels in found:

@@ -8,7 +8,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.tasks import Here
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.judging.ladder import cost
-from comparisons.judging.ladder.cost import Method, cheapest, methods_of
+from comparisons.judging.ladder.cost import cheapest, methods_of
 from comparisons.judging.rule import values_of
 from comparisons.models.model import Model
 from comparisons.runs.run import Known, run
@@ -92,7 +92,7 @@ class TestCheapest:
 class TestMethods:
     def test_those_that_apply_beside_what_every_run_solves(self):
         def names(tables):
-            return [method.name for method in methods_of(problem(tables))]
+            return [model.label for model in methods_of(problem(tables))]
 
         assert names(SMOOTH) == [PLANE, P2, P1, "finite elements, P3"]
         assert names(LAYER) == [*names(SMOOTH), "half-plane, layered"]
@@ -103,11 +103,10 @@ class TestMethods:
 
     def test_a_layer_by_its_operator_meets_finite_elements(self):
         layer = problem(LAYER)
-        by_name = {method.name: method for method in methods_of(layer)}
+        by_name = {model.label: model for model in methods_of(layer)}
 
         def peak(name: str) -> float:
-            method = by_name[name]
-            return method.model.solve(Here(), layer, 2)[0.0].solution.pressure.max()
+            return by_name[name].solve(Here(), layer, 2)[0.0].solution.pressure.max()
 
         plain, operator = peak(PLANE), peak("half-plane, layered")
         elements = peak("finite elements, P3")
@@ -125,8 +124,8 @@ def test_what_fails_costs_its_row_and_what_there_is_no_time_for_is_not_begun(mon
             return solve(model, *how)
         raise InputError("too small") if model.label == "small" else ZeroDivisionError("by\nzero")
 
-    methods = [Method(name, "finite elements", (1,)) for name in ("small", "wrong")]
-    methods.append(Method("late", "finite elements", (11,)))
+    numbers = {"small": (1,), "wrong": (1,), "late": (11,)}
+    methods = {Model(f"cost-{n}", "finite elements", label=n): of for n, of in numbers.items()}
     monkeypatch.setattr(cost, "methods_of", lambda problem: methods)
     monkeypatch.setattr(Model, "solve", failing)
     outcome = run(resolved(PLAIN), None, MODELS, known=Known(all_methods=True))
@@ -137,7 +136,9 @@ def test_what_fails_costs_its_row_and_what_there_is_no_time_for_is_not_begun(mon
 
 
 def test_the_command_is_a_run_that_prints_a_table_of_80_columns(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cost, "methods_of", lambda problem: methods_of(problem)[:1])
+    monkeypatch.setattr(
+        cost, "methods_of", lambda problem: dict(list(methods_of(problem).items())[:1])
+    )
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "small.toml").write_text(

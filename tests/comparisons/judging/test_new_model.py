@@ -27,4 +27,4 @@ def test_a_new_model_is_one_entry(monkeypatch):
     assert abs(figure.value) <= figure.numerical < abs(half_plane.value)
     rows = {row["rung"]: row for row in run.findings["ladder"].table(RUNGS).rows()}
     assert rows["round"]["model"] == "half-plane with exact circle"
-    assert "half-plane, round" in [method.name for method in methods_of(run.problem)]
+    assert "half-plane, round" in [model.label for model in methods_of(run.problem)]
