@@ -50,7 +50,6 @@ from comparisons.judging.model_error.model_error import INTERACTION, JUMP
 from comparisons.judging.model_error.refinement import (
     GROWTH_OF_TIME,
     LEAST_LEVELS,
-    MOST_LEVELS,
     EffectRefinement,
     ErrorBudget,
 )
@@ -73,11 +72,11 @@ def error_budget(solved: Solved, rows: tuple[Figure, ...], tasks: Tasks) -> Erro
         effects.select(selection)
         try:
             if FLOW in selection.added:
-                least = effects.budget(LEAST_LEVELS, is_frugal=False)
+                least = effects.budget(LEAST_LEVELS)
                 if (flow := _idle_flow(least, scene.tolerances)) is not None:
                     selection = selected_effects(solved, coupled(solved, tasks), {FLOW: flow})
                     continue
-            found = effects.budget(MOST_LEVELS, is_frugal)
+            found = effects.budget()
         except NotComputedError as error:
             if dropped := _given_up(effects):
                 selection = selection.without(dropped, str(error))

@@ -179,14 +179,12 @@ class EffectRefinement:
         known = (self.expected.get((variant, number), 0.0) for variant in self.wholes)
         return GROWTH_OF_TIME * math.fsum(known)
 
-    def budget(self, most: int, is_frugal: bool) -> ErrorBudget:
+    def budget(self, most: int = MOST_LEVELS) -> ErrorBudget:
         """The model errors by so many levels at most; wholes are solved before what splits them.
-
-        is_frugal  whether a level that cannot change a verdict is left out
         Raises NotComputedError where a whole has no solution on the least levels."""
         most = min(most, self.most_levels, len(self.own_levels))
         self.announce_all(LAST)
-        levels, left_out = self._solve_wholes(most, is_frugal)
+        levels, left_out = self._solve_wholes(most)
         for number in range(1, min(levels, LEAST_LEVELS) + 1):
             self.prepare(self.every, number)
         solutions = self._solutions(levels)
@@ -200,8 +198,9 @@ class EffectRefinement:
             solutions=tuple(solutions),
         )
 
-    def _solve_wholes(self, most: int, is_frugal: bool) -> tuple[int, str | None]:
-        """As many levels of the wholes as it takes; which further one cannot change a verdict."""
+    def _solve_wholes(self, most: int) -> tuple[int, str | None]:
+        """As many levels of the wholes as it takes; which further one is left out, as it cannot
+        change a verdict."""
         for number in range(1, min(most, LEAST_LEVELS) + 1):
             self._solve_whole(number)
         if most >= LEAST_LEVELS:
@@ -210,7 +209,7 @@ class EffectRefinement:
             errors = self._errors(self._solutions(number - 1))
             if _settled(self.rows, errors):
                 return number - 1, None
-            if is_frugal and self._are_fixed(errors):
+            if self.problem.scene.budget.effects != "all" and self._are_fixed(errors):
                 further = f"level {number} of the whole model"
                 return number - 1, f"{further}: cannot change a verdict ({ASKED})"
             # by the laws of cost: clocks would give another machine other figures

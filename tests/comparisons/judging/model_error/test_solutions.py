@@ -77,7 +77,7 @@ def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
 def test_of_a_whole_without_a_solution_nothing_is_known(made):
     refused = patch.object(Model, "solve", side_effect=MeshError("no mesh"))
     with refused, pytest.raises(NotComputedError, match="no mesh"):
-        made(Tasks()).budget(3, is_frugal=False)
+        made(Tasks()).budget()
 
 
 def test_a_problem_can_be_handed_on(problem_with):
