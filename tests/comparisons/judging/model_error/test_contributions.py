@@ -108,9 +108,10 @@ class TestFiniteDeformation:
         assert split.pairs["finite_strain"] == (split.whole, coupled)
         assert is_nothing(parts.interaction[0])
 
-    def test_all_bodies_are_solved_as_it_is(self, problem_with):
-        problem = problem_with(finite_element={"element": "P3"})
-        split = split_variants(problem, selection_of(added={"finite_strain"}), 0.0)
+    @pytest.mark.parametrize("name", ["finite_strain", "plastic_flow"])
+    def test_all_bodies_are_solved_as_it_is(self, problem_with, name):
+        problem = problem_with(body={"yield_stress": 1e9}, finite_element={"element": "P3"})
+        split = split_variants(problem, selection_of(added={name}), 0.0)
         linear = split_variants(problem, selection_of(added={"exact_circle"}), 0.0)
         assert split.of_scene == split.nothing and linear.of_scene is None
         for made, element in ((split, "P2"), (linear, "P3")):

@@ -1,13 +1,10 @@
 """Flow beside a half-plane that exceeds the yield stress beyond doubt, or why there is none."""
 
-from dataclasses import replace
-
 import pytest
 from scenes import STEEL, asked_in_python, changed, resolved, run_of
 
 from comparisons.common.errors import ExitStatus
 from comparisons.judging.effects.catalogue import FLOW
-from comparisons.judging.model_error.contributions import split_variants
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.plan import time_with_flow
 from comparisons.models.posing import problem_of
@@ -65,13 +62,6 @@ def test_the_verdict_says_what_flow_takes(beside):
     taken = 100.0 * error.value / (1.0 + error.value)
     assert f"Flow takes {taken:.0f} % off the peak pressure and adds" in said.sentence
     assert said.next.startswith("peak pressure 2.") and "not known to the tolerance" in said.next
-
-
-def test_flow_beside_linear_elements_is_of_quadratic_ones(beside):
-    scene = beside.problem.scene.unchecked({"finite_element.element": "P1"})
-    selection, problem = beside.data("model_error").selection, replace(beside.problem, scene=scene)
-    for variant in split_variants(problem, selection, 0.0).wholes:
-        assert variant.posed(problem).scene.finite_element.element == "P2"
 
 
 def test_finite_strain_is_chosen_where_it_decides(beside, finite):

@@ -104,19 +104,6 @@ class TestSmooth:
         one, other = (error.part("finite_strain").value for error in errors)
         assert 1.85 < other / one < 2.15
 
-    def test_the_parts_make_up_the_difference_to_what_the_models_say(self, outcomes):
-        """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
-        for name in ("peak_pressure", "contact_length"):
-            known = outcomes[1].figures.of(quantity=name)
-            stated = known.one(study="model_error")
-            values = [known.one(study="contact", source=model).value for model in MODELS]
-            whole = values[0] / (1.0 + stated.value)
-            parts = sum(
-                part.value for part in stated.parts if part.name in {*EFFECTS, "interaction"}
-            )
-            models = (values[0] - values[1]) / whole
-            assert models - parts == pytest.approx(stated.value, abs=2e-5)
-
     def test_the_verdict_is_taken_from_it(self, outcomes):
         """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
         last = outcomes[1]
