@@ -55,23 +55,28 @@ class Printed(ABC):
     @property
     def summary(self) -> str:
         """The last ten lines of these: what they come to."""
-        return "\n".join(self._text().splitlines()[-SUMMARY:])
+        return "\n".join(in_lines(self.tables(), COLUMNS)[-SUMMARY:])
 
     def __repr__(self) -> str:
-        return self._text()
+        return "\n".join(in_lines(self.tables(), COLUMNS))
 
     def _repr_html_(self) -> str:
-        return self._console().export_html(inline_styles=True, code_format=PAGE)
-
-    def _text(self) -> str:
-        return "\n".join(line.rstrip() for line in self._console().export_text().splitlines())
-
-    def _console(self) -> "Console":
-        from rich.console import Console
-
-        console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
+        console = _console(COLUMNS)
         console.print(self.tables(), crop=False)
-        return console
+        return console.export_html(inline_styles=True, code_format=PAGE)
+
+
+def in_lines(shown: "RenderableType", width: int = WIDTH) -> tuple[str, ...]:
+    """Lines of plain text, so many columns wide."""
+    console = _console(width)
+    console.print(shown, crop=False)
+    return tuple(line.rstrip() for line in console.export_text().splitlines())
+
+
+def _console(width: int) -> "Console":
+    from rich.console import Console
+
+    return Console(file=io.StringIO(), width=width, record=True, force_jupyter=False)
 
 
 def summary(run: Run, details: bool = False) -> "RenderableType":
@@ -96,16 +101,6 @@ def summary(run: Run, details: bool = False) -> "RenderableType":
     for answer in answers_of(run):
         tables += ["", *_answer(run, answer)]
     return Group(*first, next_step, *commands, "", *tables, "", _facts(run))
-
-
-def in_lines(shown: "RenderableType") -> tuple[str, ...]:
-    """A summary as lines of plain text, in 80 columns."""
-    from rich.console import Console
-
-    console = Console(width=WIDTH, force_terminal=False)
-    with console.capture() as printed:
-        console.print(shown, crop=False)
-    return tuple(line.rstrip() for line in printed.get().splitlines())
 
 
 def first_lines(title: str, within: str, said: Iterable[tuple[str, str]]) -> "list[Text]":

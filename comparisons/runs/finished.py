@@ -84,7 +84,7 @@ class FinishedRun(Result):
         folder  None is the one that it was solved for, if any
         junit   file for JUnit XML
         pdf     print the report, too, where a browser does"""
-        from comparisons.output.page.pdf import NoPdfError, print_report
+        from comparisons.output.page.pdf import print_report
 
         place = self.outcome.directory if folder is None else Path(folder)
         drawn = finish(replace(self.outcome, directory=place), progress)
@@ -92,10 +92,8 @@ class FinishedRun(Result):
             write_whole(junit, junit_of_run(self.outcome))
         if pdf and drawn:
             progress("printing the report")
-            try:
-                print_report(place)
-            except NoPdfError as error:
-                progress(Lasting(str(error)))
+            if why_not := print_report(place):
+                progress(Lasting(why_not))
         return drawn
 
     def report(self, path: str | os.PathLike) -> Path:

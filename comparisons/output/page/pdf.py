@@ -16,10 +16,6 @@ REMEDY = "apt-get install --no-install-recommends chromium"
 PATIENCE = 120.0  # s; a page of 5 MB takes two on a machine that does nothing else
 
 
-class NoPdfError(RuntimeError):
-    """Nothing was printed; `str` says in one sentence why, and what to do."""
-
-
 def browser() -> str | None:
     """The first Chromium or Chrome on the PATH that starts: Ubuntu's only asks for its snap."""
     return next(filter(_starts, filter(None, map(shutil.which, BROWSERS))), None)
@@ -41,17 +37,17 @@ def options(profile: str) -> list[str]:
     return [*words, "--no-sandbox"] if os.geteuid() == 0 else words
 
 
-def print_report(folder: Path) -> Path:
-    """Print a run's report.html into report.pdf beside it; its path. Raises NoPdfError."""
-    print_pdf(folder / REPORT, folder / PDF)
-    return folder / PDF
+def print_report(folder: Path) -> str:
+    """Print a run's report.html into report.pdf beside it; why that could not be, if so."""
+    return print_pdf(folder / REPORT, folder / PDF)
 
 
-def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
-    """Print a page into `target`, which appears whole or not at all. Raises NoPdfError."""
+def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> str:
+    """Print a page into `target`, which appears whole or not at all. Returns in one sentence why it
+    could not be printed, and what to do; else nothing."""
     program, by_hand = browser(), f"print {page} from any browser"
     if program is None:
-        raise NoPdfError(
+        return (
             f"{target}: not printed: no Chromium or Chrome starts here; "
             f"{REMEDY} gets one (of Ubuntu: snap install chromium), or {by_hand}"
         )
@@ -67,5 +63,6 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
         except subprocess.TimeoutExpired:
             why, content = f"did not end within {patience:g} s", b""
     if not (content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")):
-        raise NoPdfError(f"{target}: not printed: {program} {why}; {by_hand}")
+        return f"{target}: not printed: {program} {why}; {by_hand}"
     write_whole(target, content)
+    return ""

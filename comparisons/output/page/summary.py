@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.files import REPORT, check_file, write_whole
+from comparisons.common.files import PDF, REPORT, check_file, write_whole
 from comparisons.common.numbers import (
     percent,
     percent_as_written,
@@ -26,7 +26,7 @@ from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text,
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.output.page.html import inline, rendered
-from comparisons.output.page.pdf import NoPdfError, print_report
+from comparisons.output.page.pdf import print_report
 from comparisons.output.result import Result, read_result
 from comparisons.studies import problem
 
@@ -60,25 +60,23 @@ class Report:
 
     result: Result
     page: Path
-    # where the page was printed to, or why it was not; neither where that was not asked for
-    pdf: Path | None = None
-    no_pdf: str | None = None
+    no_pdf: str | None = (
+        None  # why the page was not printed; "": it was; None: it was not asked for
+    )
 
     @property
     def title(self) -> str:
         return self.result.scene["title"]
 
+    @property
+    def pdf(self) -> Path | None:
+        """Where the page was printed to."""
+        return self.page.with_name(PDF) if self.no_pdf == "" else None
+
     @cached_property
     def cells(self) -> dict[str, Cell]:
         """Those of COLUMNS that the run has."""
         return {name: Cell(*said) for name, *said in _cells(self.result)}
-
-    def printed(self) -> "Report":
-        """With its page printed, or why it is not."""
-        try:
-            return replace(self, pdf=print_report(self.page.parent))
-        except NoPdfError as error:
-            return replace(self, no_pdf=str(error))
 
 
 @dataclass(frozen=True)
@@ -133,7 +131,7 @@ def show_again(
         write_whole(summary, summary_page(reports, summary.parent))
     for number, report in enumerate(reports) if pdf else ():
         callback(f"{report.page}: printing")
-        reports[number] = report.printed()
+        reports[number] = replace(report, no_pdf=print_report(report.page.parent))
     return Reports(tuple(reports), summary)
 
 

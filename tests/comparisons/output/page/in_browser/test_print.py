@@ -8,7 +8,7 @@ import pytest
 from scenes import STEADY
 
 from comparisons.output.page.page import render
-from comparisons.output.page.pdf import NoPdfError, print_pdf, print_report
+from comparisons.output.page.pdf import print_pdf, print_report
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0
@@ -69,8 +69,8 @@ def test_nothing_is_wider_than_the_paper(tab, request, name):
 
 
 def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
-    printed = print_report(wavy_file.parent)
-    content = printed.read_bytes()
+    assert print_report(wavy_file.parent) == ""
+    content = wavy_file.with_name("report.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
     assert 5 <= len(boxes) <= 8
     for box in boxes:
@@ -103,9 +103,7 @@ def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch,
     page, target = tmp_path / "page.html", tmp_path / "page.pdf"
     page.write_text("<p>page</p>", encoding="utf-8")
     target.write_bytes(b"before")
-    with pytest.raises(NoPdfError) as raised:
-        print_pdf(page, target, patience=1.0)
-    assert message in str(raised.value)
-    assert "\n" not in str(raised.value)
+    said = print_pdf(page, target, patience=1.0)
+    assert message in said and "\n" not in said
     assert target.read_bytes() == b"before"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bin", "page.html", "page.pdf"]
