@@ -72,8 +72,9 @@ class Number:
         return core_schema.no_info_before_validator_function(self.read, number)
 
     def __get_pydantic_json_schema__(self, schema: Mapping, handler: Any) -> dict:
-        forms = [handler(schema), WITH_UNIT | {"examples": [self.dimension.example]}]
-        return {"title": self.allowed(), "anyOf": forms}
+        example = self.dimension.example if self.dimension.si_unit else "2 %"
+        text = WITH_UNIT | {"examples": [example]}
+        return {"title": self.allowed(), "anyOf": [handler(schema), text]}
 
 
 @dataclass(frozen=True)

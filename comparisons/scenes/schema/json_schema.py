@@ -101,14 +101,11 @@ def words(node: Mapping, root: Mapping) -> str:
     [node] = forms(node, root)
     if choices := choices_of(node):
         return " or ".join(map(json.dumps, choices))
-    kinds = {
-        "boolean": lambda: "true or false",
-        "integer": lambda: f"a whole number from {node['minimum']} to {node['maximum']}",
-        "string": lambda: "a string of one line",
-        "array": lambda: _list(node, root),
-        "object": lambda: _table(node, root),
-    }
-    return kinds[node["type"]]() + example
+    if node["type"] in ("array", "object"):
+        return (_list if node["type"] == "array" else _table)(node, root) + example
+    whole = "a whole number from {minimum} to {maximum}"
+    kinds = {"boolean": "true or false", "string": "a string of one line", "integer": whole}
+    return kinds[node["type"]].format_map(node) + example
 
 
 def _list(node: Mapping, root: Mapping) -> str:
