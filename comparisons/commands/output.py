@@ -79,19 +79,17 @@ def _lines() -> ProgressCallback:
 
 
 def show(renderable: object) -> None:
-    """Print a table, as wide as the terminal, or as COLUMNS; into a file without padding. What is
-    to be pasted keeps its line, however long."""
-    from rich.console import Console
-
+    """Print a table, as wide as the terminal, or as COLUMNS."""
     if sys.stdout.isatty():
+        from rich.console import Console
+
         Console().print(renderable, crop=False)
         return
+    from comparisons.output.terminal import in_lines
+
     asked = os.environ.get("COLUMNS", "")
     width = int(asked) if is_whole(asked) and int(asked) else UNSEEN_WIDTH
-    unseen = Console(width=width, force_terminal=False)
-    with unseen.capture() as printed:
-        unseen.print(renderable, crop=False)
-    print("\n".join(line.rstrip() for line in printed.get().splitlines()))
+    print("\n".join(in_lines(renderable, width)))
 
 
 def show_either(as_json: bool, content: Callable[[], object], tables: Callable[[], object]) -> None:

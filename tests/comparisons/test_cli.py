@@ -139,27 +139,6 @@ def test_traceback_on_request(solver, capsys, monkeypatch):
     assert err.startswith("Traceback") and "\nZeroDivisionError: why\n" in err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "fragment"),
-    [
-        (["rnu"], "No such command 'rnu'"),
-        (["run"], "Missing argument"),
-        (["run", "smooth", "--moddels", "half-plane"], "No such option: --moddels"),
-        (["run", "smooth", "smooth"], "unexpected extra argument"),
-        (["run", "smooth", "--models", "fem"], "no model fem; the nearest is finite-element; all"),
-        (["run", "smooth", "--models", ","], "models: is empty; allowed are half-plane, finite-"),
-        (["run", "smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
-    ],
-)
-def test_wrong_arguments(solver, capsys, arguments, fragment):
-    assert main(arguments) == ExitStatus.BAD_INPUT
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert err.startswith("crosscheck: ") and err.count("\n") == 1
-    assert fragment in err
-    assert solver.calls == []
-
-
 def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     monkeypatch.setenv("TERM", "xterm")

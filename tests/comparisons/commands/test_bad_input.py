@@ -4,7 +4,6 @@ what is nearly right, by what to type."""
 import io
 import json
 import math
-import os
 import sys
 from pathlib import Path
 
@@ -208,6 +207,13 @@ def test_wrong_file(folder, content, fragment, complaint):
             ["run", "smoth"],
             "smoth: is neither a file nor a scene; the nearest scene is smooth, all are",
         ),
+        (["rnu"], "No such command 'rnu'"),
+        (["run"], "Missing argument"),
+        (["run", "smooth", "--moddels", "half-plane"], "No such option: --moddels"),
+        (["run", "smooth", "smooth"], "unexpected extra argument"),
+        (["run", "smooth", "--models", "fem"], "no model fem; the nearest is finite-element; all"),
+        (["run", "smooth", "--models", ","], "models: is empty; allowed are half-plane, finite-"),
+        (["run", "smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
         (["run", "absent.toml"], "absent.toml: there is no such file"),
         (["run", "/dev/null"], "is not a regular file; allowed is a TOML file"),
         (["run", ""], "allowed is a scene's file or name"),
@@ -249,15 +255,6 @@ def test_a_scene_does_not_replace_its_profile(folder, complaint):
     (folder / "trace.toml").write_text(TRACE)
     assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
     assert "is the profile itself" in complaint("init", "trace.toml", "--force")
-
-
-@pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
-@pytest.mark.parametrize(("closed", "words"), [(">&-", ""), ("2>&-", "smooth-sliding")])
-def test_a_closed_stream_is_no_defect(closed, words):
-    code = f'"{sys.executable}" -m comparisons.cli scenes {closed}'
-    done = python("-c", f"import os, sys; sys.exit(os.system({code!r}) >> 8)")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert words in done.stdout
 
 
 def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path):
