@@ -57,17 +57,14 @@ def table(
 ) -> int:
     """Put the figures of many runs into one table. Shows what is judged."""
     from comparisons import api
-    from comparisons.output.flat_csv import as_csv, check_place
 
     if raw and as_json:
         raise InputError("table: allowed is one of --csv, --json")
-    if out is not None:
-        check_place(out)
     found = api.table(*folders)
     if out is not None:
         found.write(out)
     if raw:
-        print(as_csv(found.rows), end="")
+        print(found.csv, end="")
     elif as_json or out is None:
         show_either(as_json, lambda: found.rows, found.tables)
     else:

@@ -34,9 +34,20 @@ class FigureTable(Records):
     def tables(self) -> "RenderableType":
         return rows_tables(judged_rows(self.rows), partial(right_within, name=self.title))
 
+    @property
+    def csv(self) -> str:
+        """Comma-separated values, with a header. Neither a terminal nor a spreadsheet obeys a text
+        of it: control characters are escapes, an apostrophe stands before what would be a
+        formula."""
+        rows = ([harmless(row[name]) for name in COLUMNS] for row in self.rows)
+        return csv_text([COLUMNS, *rows])
+
     def write(self, path: Path) -> None:
-        """Write every figure to a file FILE.csv."""
-        write_whole(path, as_csv(self.rows))
+        """Write every figure to a file FILE.csv. Raises InputError where that cannot be."""
+        if path.suffix != ".csv":
+            raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv")
+        check_file(path)
+        write_whole(path, self.csv)
 
 
 def tidy_rows(folders: Iterable[Path]) -> list[Row]:
@@ -56,26 +67,12 @@ def tidy_rows(folders: Iterable[Path]) -> list[Row]:
     return rows
 
 
-def as_csv(rows: Iterable[Row]) -> str:
-    """The table as comma-separated values, with a header.
-    Neither a terminal nor a spreadsheet obeys a text of it: control characters are written as
-    escapes, and an apostrophe stands before what would be a formula."""
-    return csv_text([COLUMNS, *([harmless(row[name]) for name in COLUMNS] for row in rows)])
-
-
 def harmless(value: object) -> object:
     """A cell that neither a terminal nor a spreadsheet obeys."""
     if not isinstance(value, str):
         return value
     text = one_line(value)
     return f"'{text}" if text.startswith(FORMULA) else text
-
-
-def check_place(path: Path) -> None:
-    """Raise InputError, one line, unless a table can be written to a file of this name."""
-    if path.suffix != ".csv":
-        raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv")
-    check_file(path)
 
 
 def _runs(folders: Iterable[Path]) -> list[Path]:
