@@ -104,10 +104,6 @@ class Problem:
         """Pitch [m] of a level, coarse to fine; the first has number 1."""
         return self.pitches[0] / 2.0 ** (number - 1)
 
-    def coarser(self, pitch: float) -> int:
-        """Levels from a pitch to the third; negative for finer ones."""
-        return round(np.log2(pitch / self.reference_pitch))
-
     @property
     def period(self) -> float | None:
         """[m] after which the surface repeats; None: it does not."""

@@ -63,8 +63,3 @@ def closed_form(problem: Problem) -> ClosedForm | None:
         stress=stress,
         extremes=partial(westergaard_extremes, wave, nu),
     )
-
-
-def scale_words(problem: Problem) -> str:
-    """What peak pressure and half-width of the smooth contact are, by which figures are shown."""
-    return "mean" if problem.scene.periodic else "Hertz"

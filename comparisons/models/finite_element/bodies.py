@@ -4,7 +4,6 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -23,8 +22,6 @@ from fem.body.elasticity import Coating, ElasticBody, elastic_body
 from fem.body.support import Sides, Support
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
-
-Made = TypeVar("Made")
 
 UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
 HELD = 2  # a rough body, and what presses it: each more would add to the memory of a whole run
@@ -45,21 +42,17 @@ class BodyPair:
         return (self.rough,) if self.roller is None else (self.rough, self.roller)
 
 
-class Latest(Generic[Made]):
+class Latest(OrderedDict):
     """The latest few of what was made, by what it was made of."""
 
-    def __init__(self) -> None:
-        self._held: OrderedDict[Hashable, Made] = OrderedDict()
-
-    def __call__(self, make: Callable[[], Made], *key: Hashable) -> Made:
+    def of(self, make: Callable[[], object], *key: Hashable) -> object:
         """What was made of a key, made where it is new; the oldest beyond HELD is dropped."""
-        if key in self._held:
-            self._held.move_to_end(key)
-            return self._held[key]
-        while len(self._held) >= HELD:  # before the next is made: memory
-            self._held.popitem(last=False)
-        self._held[key] = make()
-        return self._held[key]
+        if key not in self:
+            while len(self) >= HELD:  # before the next is made: memory
+                self.popitem(last=False)
+            self[key] = make()
+        self.move_to_end(key)
+        return self[key]
 
 
 class BodyCache:
@@ -69,7 +62,7 @@ class BodyCache:
     the last."""
 
     def __init__(self) -> None:
-        self.mesh, self.body = Latest[BlockMesh](), Latest[ElasticBody]()
+        self.mesh, self.body = Latest(), Latest()
 
 
 def bodies_of(
@@ -104,8 +97,8 @@ def bodies_of(
 
         key, linear = _key(spec), replace(material, law=Law())
         with stages.stage("mesh", f"finite elements: {words}"):
-            flat = body_cache.mesh(partial(build_block, spec), key)
-        known = body_cache.body(make, key, shape, linear, support, degree, coating)
+            flat = body_cache.mesh.of(partial(build_block, spec), key)
+        known = body_cache.body.of(make, key, shape, linear, support, degree, coating)
         return known if known.material == material else known.with_law(material.law)
 
     spec = block_spec(problem, refinement, patches)

@@ -58,7 +58,7 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
     scene, half_width = problem.scene, problem.hertz.half_width
     edge = refinement.pitch  # one under each pressure element
-    coarser = problem.coarser(refinement.pitch)
+    coarser = round(np.log2(edge / problem.reference_pitch))  # levels to the third
     width, depth = problem.unbounded
     across = 0.5 * width
     if scene.body.thickness is not None:

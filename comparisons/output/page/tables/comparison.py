@@ -10,7 +10,6 @@ from comparisons.figures.quantity import COMPARED, LABELS, NORMS
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import EFFECTS
 from comparisons.judging.study import MODEL_ERROR, Run
-from comparisons.models.smooth import scale_words
 
 SAME_PROBLEM = "the same problem"
 
@@ -27,7 +26,7 @@ def comparison_table(run: Run, brief: bool = False) -> TextTable:
     known = [f for f in run.figures if f.study in studies and f.source in (sources or run.runs)]
     over, title, beside = in_context(run.problem.hertz, COMPARED), "", {}
     if not compared:
-        over_hertz = f"over {scale_words(run.problem)}"
+        over_hertz = f"over {'mean' if run.problem.scene.periodic else 'Hertz'}"
         return figure_table(known, COMPARED, beside={over_hertz: over}, brief=brief)
     problems = {figure.quantity: reference_of(run, figure.quantity) for figure in compared}
     if len({*problems.values()}) == 1:
