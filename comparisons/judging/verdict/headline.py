@@ -33,6 +33,7 @@ from comparisons.models.assumptions import WITHIN_LINEAR, laws, question, withou
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 FLOWS = "No figure of an elastic body holds at such stresses."
+MAY_FLOW = "Nothing said of an elastic body will hold."
 UNFOUNDED = "What was computed is shown, but no conclusion rests on it."
 SMALL = 0.02  # of an error's reach: what is not modelled is not said below it
 
@@ -60,8 +61,8 @@ class Within:
 
 def within_of(run: Run) -> Within:
     asked = question(run.problem.scene)
-    if why := _why_unknown(run):
-        return Within(None, None, why, asked)
+    if found := obstacle(run):
+        return Within(None, None, found.why, asked)
     largest = max(run.model_errors, key=lambda error: (not isfinite(error.reach), error.reach))
     if isfinite(largest.reach):
         said = f"{name_of(run, largest)}, {size_of(run, largest)}"
@@ -115,17 +116,15 @@ def obstacle(run: Run) -> Obstacle | None:
         [name, *_] = run.runs
         why = f"only the {HYPHENATED[name]} model was run"
         return Obstacle("not compared", why, _one_model(run))
-    flows = run.findings[yielding.NAME].said(yielding.BEYOND_DOUBT)
-    return None if flows is None else Obstacle("fails", flows, FLOWS)
-
-
-def _why_unknown(run: Run) -> str:
-    """Why it is not known, as a clause; nothing where that does not apply."""
-    if found := obstacle(run):
-        return found.why
-    at_such = run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES)
-    flows = "" if run.problem.scene.asks_elastic else at_such
-    return flows or ("" if run.model_errors else "no figure has a tolerance")
+    said = run.findings[yielding.NAME].said
+    if flows := said(yielding.BEYOND_DOUBT):
+        return Obstacle("fails", flows, FLOWS)
+    flows = said(yielding.AT_SUCH_STRESSES)
+    if flows and not run.problem.scene.asks_elastic:
+        return Obstacle("inconclusive", flows, MAY_FLOW)
+    if not run.model_errors:
+        return Obstacle("inconclusive", "no figure has a tolerance", "Nothing is judged.")
+    return None
 
 
 def _not_converged(run: Run) -> list[str]:
@@ -198,13 +197,13 @@ def headline(run: Run) -> Headline:
 def _sentence(run: Run, kind: Kind, within: Within) -> str:
     if found := obstacle(run):
         return found.said
-    error = deciding(run.model_errors) if run.model_errors else None
-    said = "nothing is judged" if error is None else _decided(run, kind, within, error)
+    error = deciding(run.model_errors)
+    said = _decided(run, kind, within, error)
     law = "" if kind == "inconclusive" else _law_leaned_on(run)
     asked = f", {WITHIN_LINEAR}" if run.problem.scene.linear else ""
     idle = kind == "holds" and FLOW in run.data(MODEL_ERROR).selection.found
     clauses = f"{law}{asked}{f'; {yielding.IDLE}' if idle else ''}"
-    remarks = [study.remark(run, error) for study in run.studies] if error else []
+    remarks = (study.remark(run, error) for study in run.studies)
     return " ".join(filter(None, (f"{said[0].upper()}{said[1:]}{clauses}.", *remarks)))
 
 
@@ -258,8 +257,6 @@ def _law_leaned_on(run: Run) -> str:
 
 def _inconclusive(run: Run, within: Within, worst: Figure) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
-    if run.findings[yielding.NAME].said(yielding.AT_SUCH_STRESSES) and not within.figure:
-        return "nothing said of an elastic body will hold"
     error = _other(run, within, worst, "the error of ") or "this error"
     largest, tolerance = worst.largest_unknown, _tolerance([worst])
     if worst.not_modelled == inf:
