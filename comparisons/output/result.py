@@ -106,11 +106,6 @@ class Result(Printed):
         """As of a `Run`."""
         return deciding_friction(self.model_errors, self.scene["load"]["friction"])
 
-    @property
-    def ladder(self) -> Findings:
-        """Which model suffices; empty where the run compares nothing."""
-        return self.findings.get(LADDER, Findings())
-
     def figure(self, quantity: str, source: str, study: str = "contact", **at: float) -> Figure:
         """One of them, by the model or other source that it is of. Raises InputError, with the
         nearest name, where the run has none.
@@ -172,14 +167,14 @@ class Result(Printed):
     @property
     def result(self) -> dict:
         """The content of result.json."""
-        findings = self.findings.items()
+        findings, ladder = self.findings.items(), self.findings.get(LADDER, Findings())
         return {
             "schema": SCHEMA,
             **{name: getattr(self, name) for name in SAID},
             "next": list(self.next),
             "printed": list(self.printed),
-            "suffices": self.ladder.said(SUFFICES),
-            "escalate_to": self.ladder.said(ESCALATE_TO),
+            "suffices": ladder.said(SUFFICES),
+            "escalate_to": ladder.said(ESCALATE_TO),
             "coverage": COVERAGE,
             "figures": [_figure(figure) for figure in self.figures],
             "series": [_series(study, item) for study, known in findings for item in known.series],

@@ -60,9 +60,8 @@ class Report:
 
     result: Result
     page: Path
-    no_pdf: str | None = (
-        None  # why the page was not printed; "": it was; None: it was not asked for
-    )
+    # why the page was not printed; "": it was; None: that was not asked for
+    no_pdf: str | None = None
 
     @property
     def title(self) -> str:
