@@ -11,10 +11,13 @@ own pitch, the displacement at the middle of the strip, (C p)_i = h u_z(x_i).
     h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
     phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]"""
 
+import warnings
+from functools import cached_property
 from typing import Literal, Protocol, Self
 
 import numpy as np
 import scipy.linalg
+from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.grid import restricted
 from analytic.operators.convolution import Convolution, cholesky_solve, made_once
@@ -145,11 +148,11 @@ class SumOfConvolutions(Convolution):
 class DenseMatrix:
     """A compliance given as its matrix (n, n) [m^2/Pa]."""
 
-    periodic = skew = False
+    periodic = False
     ring = None
 
-    def __init__(self, matrix: np.ndarray) -> None:
-        self.matrix, self.count = matrix, len(matrix)
+    def __init__(self, matrix: np.ndarray, skew: bool = False) -> None:
+        self.matrix, self.count, self.skew = matrix, len(matrix), skew
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
@@ -166,23 +169,39 @@ class DenseMatrix:
     def coarsened(self) -> Self:
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         rows = restricted(self.matrix, self.periodic)
-        return type(self)(restricted(rows.T, self.periodic).T)
+        return type(self)(restricted(rows.T, self.periodic).T, self.skew)
 
 
 class DenseCompliance(DenseMatrix):
-    """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+    """A compliance given as its matrix (n, n) [m^2/Pa], for a body that no model comes close to.
+    Its symmetric part is positive definite, and all that counts unless it is `skew`. Nodes are then
+    solved by elimination: 1500 in 0.1 s."""
 
-    def __init__(self, matrix: np.ndarray) -> None:
-        super().__init__(0.5 * (matrix + matrix.T))
+    def __init__(self, matrix: np.ndarray, skew: bool = False) -> None:
+        even = 0.5 * (matrix + matrix.T)
+        super().__init__(matrix if skew else even, skew)
         # hats finer than a body's elements leave it rank-deficient where nothing touches
-        ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
-        self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
+        ridge = RIDGE * np.max(np.diag(even)) * np.eye(self.count)
+        self._factor = scipy.linalg.cho_factor(even + ridge)
+
+    @cached_property
+    def normal(self) -> "DenseCompliance":
+        """The symmetric part; where every set of nodes can be eliminated nothing asks for it."""
+        return DenseCompliance(self.matrix)
 
     def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
-        """The inverse but for a small ridge, close while every element is in contact."""
+        """The inverse of the symmetric part but for a small ridge, close while every element is in
+        contact."""
         return scipy.linalg.cho_solve(self._factor, weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k). None where
         hats finer than a body's elements leave nothing to factor."""
-        return cholesky_solve(self.block(nodes), right)
+        if not self.skew:
+            return cholesky_solve(self.block(nodes), right)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", LinAlgWarning)
+            try:
+                return scipy.linalg.solve(self.block(nodes), right, check_finite=False)
+            except (LinAlgError, LinAlgWarning):
+                return None

@@ -18,17 +18,13 @@ not symmetric but positive definite as before, and its contact problem has exact
     phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
     C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]"""
 
-import warnings
-from functools import cached_property
-
 import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike
-from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.material import Material
 from analytic.operators.convolution import DIRECT, Convolution, made_once
-from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane
+from analytic.operators.half_plane import HalfPlane
 
 
 def hat_sign(offset: ArrayLike) -> np.ndarray:
@@ -88,7 +84,9 @@ class CoupledPair(Convolution):
         """As of `Convolution`, by elimination."""
         if not self.skew:
             return super().solve(nodes, right)
-        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
+        if len(nodes) > DIRECT:
+            return None
+        return scipy.linalg.solve(self.block(nodes), right, check_finite=False)
 
     @made_once
     def coarsened(self) -> "CoupledPair | None":
@@ -106,38 +104,3 @@ def coupled_half_planes(
     `friction_dundurs` is mu beta."""
     normal = HalfPlane(count, pitch, modulus, datum)
     return CoupledPair(normal, TangentialHalfPlane(count, pitch, friction_dundurs / modulus), 1.0)
-
-
-def eliminated(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solution (m, k) by Gauss' elimination: Cholesky's factor needs symmetry."""
-    return scipy.linalg.solve(matrix, right, check_finite=False)
-
-
-class DenseCoupledCompliance(DenseMatrix):
-    """A compliance as a matrix (n, n) [m^2/Pa] whose symmetric part is positive definite.
-
-    For a body that no model comes close to. Nodes are solved by elimination: 1500 in 0.1 s.
-
-    skew    whether there is anything beside the symmetric part"""
-
-    def __init__(self, matrix: np.ndarray) -> None:
-        super().__init__(matrix)
-        self.skew = not np.array_equal(matrix, matrix.T)
-
-    @cached_property
-    def normal(self) -> DenseCompliance:
-        """The symmetric part; where every set of nodes can be eliminated nothing asks for it."""
-        return DenseCompliance(self.matrix)
-
-    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
-        """Approximate inverse, positive definite."""
-        return self.normal.precondition(weighted_displacement)
-
-    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """As of `DenseCompliance`, by elimination."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", LinAlgWarning)
-            try:
-                return eliminated(self.block(nodes), right)
-            except (LinAlgError, LinAlgWarning):
-                return None

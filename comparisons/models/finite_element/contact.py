@@ -10,7 +10,6 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
-from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyCache, BodyPair, bodies_of
 from comparisons.models.finite_element.mesh import Refinement
@@ -124,7 +123,6 @@ class SmallStrainContact:
         posed = operator, self.model, self.gap, weights, constraints, self.solution.pressure
         solution = solve_with_model(*posed, tolerance)
         if not solution.converged and len(weights) <= MOST_DENSE:
-            dense = DenseCoupledCompliance if operator.coupled else DenseCompliance
-            whole = dense(operator.matrix())
+            whole = DenseCompliance(operator.matrix(), operator.coupled)
             solution = solve_coupled(whole, self.gap, weights, constraints, solution.pressure)
         return replace(self, solution=solution, bodies=bodies, operator=operator)

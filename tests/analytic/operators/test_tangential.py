@@ -15,10 +15,9 @@ from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.half_plane import HalfPlane
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.operators.tangential import (
     CoupledPair,
-    DenseCoupledCompliance,
     coupled_half_planes,
     hat_sign,
 )
@@ -146,8 +145,8 @@ def body(friction_dundurs: float = 0.4) -> CoupledPair:
     return coupled_half_planes(GRID.count, GRID.pitch, MODULUS, friction_dundurs)
 
 
-def whole(operator: CoupledPair) -> DenseCoupledCompliance:
-    return DenseCoupledCompliance(operator.block(np.arange(operator.count)))
+def whole(operator: CoupledPair) -> DenseCompliance:
+    return DenseCompliance(operator.block(np.arange(operator.count)), skew=True)
 
 
 def wavy_gap() -> np.ndarray:
@@ -185,7 +184,7 @@ def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
     far = np.abs(GRID.x) > 0.42e-3
     places = np.flatnonzero(~far | (np.arange(GRID.count) % 3 == 0))
     spread = np.array([np.interp(GRID.x, GRID.x[places], row) for row in np.eye(len(places))]).T
-    few = DenseCoupledCompliance(spread @ body().block(places) @ spread.T)
+    few = DenseCompliance(spread @ body().block(places) @ spread.T, skew=True)
     assert few.solve(np.arange(40), np.ones((40, 1))) is None
     constraints = Constraints(load=LOAD)
     solution = solve_coupled(few, wavy_gap(), GRID.weights, constraints)

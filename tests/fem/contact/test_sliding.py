@@ -21,7 +21,8 @@ from analytic.contact.problem import ContactSolution
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.tangential import DenseCoupledCompliance, coupled_half_planes
+from analytic.operators.half_plane import DenseCompliance
+from analytic.operators.tangential import coupled_half_planes
 from analytic.surface.synthetic import self_affine
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
@@ -186,7 +187,7 @@ def as_the_whole_matrix(compliance, model, gap, weights, constraints) -> Contact
     """The solution by the whole matrix, which the one with a model is, too; friction 0.5."""
     problem = gap, weights, constraints
     solution = solve_with_model(Sliding(compliance, 0.5), model, *problem)
-    direct = solve_coupled(DenseCoupledCompliance(compliance.matrix(0.5)), *problem)
+    direct = solve_coupled(DenseCompliance(compliance.matrix(0.5), skew=True), *problem)
     assert solution.converged and direct.converged
     assert solution.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
     return direct
