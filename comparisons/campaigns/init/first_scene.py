@@ -45,7 +45,6 @@ QUESTIONS = {
         "Solid of both bodies, by its name in crosscheck materials",
     ),
 }
-EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"), ("load", "peak_pressure"))
 # Of the roller, largest first: the contact must stay on the trace.
 RADII = (
     "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
@@ -85,10 +84,6 @@ def sections_of_options(options: Options) -> Sections:
             except ValueError as error:
                 raise InputError(f"{option_of(name)}: {error}") from error
             sections.setdefault(section, {})[field] = value
-    for first, second in EXCLUSIVE:
-        if first in chosen and second in chosen:
-            message = f"is given beside {option_of(first)}; allowed is one of them"
-            raise InputError(f"{option_of(second)}: {message}")
     return sections
 
 
