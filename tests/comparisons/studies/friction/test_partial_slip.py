@@ -185,8 +185,8 @@ def test_of_a_body_that_flows_the_half_plane_stands_alone():
     "slip, message",
     [
         ({"load": 1.0}, "partial_slip.load: is 1.0; allowed is a number .* above 0 and below 1"),
-        ({"loads": [0.5, -1.0]}, "partial_slip.loads: is -1"),
-        ({"loads": []}, "partial_slip.loads: is an empty list"),
+        ({"loads": [0.5, -1.0]}, "partial_slip.loads: holds -1"),
+        ({"loads": []}, "partial_slip.loads: is a list of 0"),
         ({"loads": [0], "bulk_stress": BULK}, "partial_slip.bulk_stress: is given without a load"),
         ({"load": 0.5, "loads": [0.5]}, "partial_slip.loads: is given beside load"),
         ({}, "partial_slip.load: is missing"),
