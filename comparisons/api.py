@@ -8,6 +8,7 @@ where it has pictures. Numbers are in SI units."""
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from comparisons.campaigns.cases import Campaign
     from comparisons.campaigns.decks.write import Deck
     from comparisons.grid.map import Map
-    from comparisons.grid.table import Sweep
+    from comparisons.grid.sweep import Sweep
     from comparisons.runs.rerun import Repetition
 
 AnyScene = Scene | Mapping | str | os.PathLike
@@ -177,16 +178,16 @@ def map(
         quantity = grid.finished_map(name)["quantity"] if is_finished else "peak_pressure"
     with _folder(out, "map") as folder:
         if is_finished and as_it_is:
-            content = grid.show_finished(name, quantity, marked, folder)
+            made = grid.show_finished(name, quantity, marked, folder)
         else:
             check_finite_elements()
             size = grid.SIZE if points is None else points
             request = grid.request_of(name, size, x, y, quantity, settings)
-            content = grid.make_map(request, folder, workers, progress, marked)
-    if marked and (why := unlike(content, marked)):
-        why += "; the map's errors are those of its own scene"
-        progress(Lasting(f"--mark: {marked.scene.name} {why}"))
-    return grid.Map(content, None if out is None else folder)
+            made = grid.make_map(request, folder, workers, progress, marked)
+    if marked and (why := unlike(made.content, marked)):
+        why = f"{marked.scene.name} is not the map's scene: {why}"
+        progress(Lasting(f"--mark: {why}; the map's errors are those of its own"))
+    return made if out else replace(made, folder=None)
 
 
 def sweep(
@@ -214,7 +215,7 @@ def sweep(
     >>> round(peaks[1] / peaks[0], 4)
     2.0"""
     from comparisons.grid.sweep import make_sweep, sweep_request
-    from comparisons.grid.table import Sweep, warnings_of
+    from comparisons.grid.table import warnings_of
 
     if isinstance(over, Mapping):
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
@@ -224,9 +225,9 @@ def sweep(
     if "finite_element" in request.models:
         check_finite_elements()
     with _folder(out, "sweep") as folder:
-        content = make_sweep(request, folder, workers, progress)
-    _warn(warnings_of(content), progress)
-    return Sweep(content, None if out is None else folder)
+        made = make_sweep(request, folder, workers, progress)
+    _warn(warnings_of(made.content), progress)
+    return made if out else replace(made, folder=None)
 
 
 def verify(

@@ -7,18 +7,16 @@ a table."""
 import json
 import os
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.files import publish
+from comparisons.common.errors import InputError
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
-from comparisons.drawing.style import NamedPictures, svgs
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.groups import (
     Axis,
@@ -37,31 +35,28 @@ from comparisons.grid.map_error import (
     significance,
     solve_point,
 )
+from comparisons.grid.map_picture import Mark, map_figure
 from comparisons.grid.mark import mark_of
-from comparisons.grid.points import (
-    FAILED,
-    SOLVED,
-    Point,
-    exit_status,
-    failures,
-    points_of,
-    solved_in,
-)
+from comparisons.grid.points import FAILED, SOLVED, Grid, Point, points_of, solved_in
 from comparisons.models.problem import Problem
 from comparisons.output.records import Records
-from comparisons.output.terminal import Printed
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.scene import Origin, Scene, with_settings
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.text import Text
 
-    from comparisons.grid.map_picture import Mark
-
-FILES = MAP, PICTURE = "map.json", "map.svg"
+MAP, PICTURE = "map.json", "map.svg"
 SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
+KINDS = {  # of points, in words
+    SIGNIFICANT: "with a larger error than its numerical uncertainty",
+    BELOW: "below the first tolerance",
+    INCONCLUSIVE: "inconclusive",
+    FAILED: "failed",
+}
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/grid/points.py")
 CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_error.py"))
@@ -144,19 +139,35 @@ def make_map(
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
     marked: Problem | None = None,
-) -> dict:
-    """Compute the points that `out` does not have, write the map there, and return its content.
+) -> "Map":
+    """The map, in `out`, where the points are computed that it does not have.
 
     workers  as `tasks_by` takes them
     marked   a scene of the user's on the picture
     Raises InputError for what cannot be mapped or written."""
-    axes = {"scene": request.tables, "x": request.x, "y": request.y}
-    mark = marked and mark_of(axes, marked)  # before anybody waits for the points
-    answers = solved_in(out, FILES, request.points, solve_point, workers, callback)
-    content = map_content(request, answers)
+    axes = {"x": request.x, "y": request.y}
+    # before anybody waits for the points
+    mark = marked and mark_of({"scene": request.tables, **axes}, marked)
+    answers = solved_in(out, Map.FILES, request.points, solve_point, workers, callback)
+    points = [
+        {name: point.at[axis["group"]] for name, axis in axes.items()} | answer
+        for point, answer in zip(request.points, answers, strict=True)
+    ]
+    content = {
+        "schema": SCHEMA,
+        "command": request.command,
+        "scene": request.tables,
+        "finite_element": request.finite_element,
+        "quantity": request.quantity,
+        **axes,
+        "tolerances": list(TOLERANCES),
+        "points": [point | significance(point, request.quantity) for point in points],
+        "versions": versions(),
+    }
     callback("map: picture")
-    publish(out, _files(content, mark), FILES)
-    return content
+    made = Map(content, out, mark)
+    made.write(out)
+    return made
 
 
 def finished_names() -> tuple[str, ...]:
@@ -167,9 +178,9 @@ def finished_map(name: str) -> dict:
     return json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
 
 
-def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> dict:
-    """Write a map that comes with the project to `out`, and return its content; nothing is solved.
-    Raises InputError for a quantity that it does not have, and what cannot be written."""
+def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> "Map":
+    """A map that comes with the project, written to `out`; nothing is solved. Raises InputError for
+    a quantity that it does not have, and what cannot be written."""
     content = finished_map(name)
     solved = [point for point in content["points"] if point["status"] == SOLVED]
     allowed = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
@@ -179,98 +190,50 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
         )
     points = [point | significance(point, quantity) for point in content["points"]]
     content |= {"quantity": quantity, "points": points}
-    publish(out, _files(content, marked and mark_of(content, marked)), FILES)
-    return content
-
-
-def _files(content: dict, mark: "Mark | None") -> dict[str, str]:
-    from comparisons.grid.map_picture import map_figure
-
-    return {MAP: as_json(content), **svgs({PICTURE: lambda: map_figure(content, mark)})}
-
-
-def map_content(request: MapRequest, answers: list[dict]) -> dict:
-    """map.json, with the answers at its points."""
-    points = [
-        {name: point.at[axis["group"]] for name, axis in (("x", request.x), ("y", request.y))}
-        | answer
-        | significance(answer, request.quantity)
-        for point, answer in zip(request.points, answers, strict=True)
-    ]
-    return {
-        "schema": SCHEMA,
-        "command": request.command,
-        "scene": request.tables,
-        "finite_element": request.finite_element,
-        "quantity": request.quantity,
-        "x": request.x,
-        "y": request.y,
-        "tolerances": list(TOLERANCES),
-        "points": points,
-        "versions": versions(),
-    }
-
-
-def map_table(content: dict, out: Path | None) -> "Text":
-    """How many points are within each tolerance, and of which kind."""
-    from rich.text import Text
-
-    points = content["points"]
-    kinds = Counter(point.get("error", point["status"]) for point in points)
-    within = ", ".join(
-        f"{percent_as_written(t)} at {points_within(content, t)}" for t in content["tolerances"]
-    )
-    account = {
-        SIGNIFICANT: "with a larger error than its numerical uncertainty",
-        BELOW: "below the first tolerance",
-        INCONCLUSIVE: "inconclusive",
-        FAILED: "failed",
-    }
-    counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
-    lines = [
-        f"model error of the half-plane, {label(content['quantity'])}: within {within} points",
-        f"{len(points)} points: {counts}",
-        *(f"failed, {count}: {why}" for why, count in failures(points).most_common()),
-        f"made by: {content['command']}",
-        *([] if out is None else [f"map: {out / MAP}, {out / PICTURE}"]),
-    ]
-    return Text("\n".join(lines))
+    made = Map(content, out, marked and mark_of(content, marked))
+    made.write(out)
+    return made
 
 
 @dataclass(frozen=True, repr=False)
-class Map(Printed):
-    """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
+class Map(Grid):
+    """Where the half-plane holds."""
 
-    content: dict
-    folder: Path | None
+    FILES = MAP, PICTURE
+
+    mark: Mark | None = None
 
     @property
     def figures(self) -> Records:
         """The model error at each point, in the quantity that the map shows, as records."""
-        axes, quantity = {n: self.content[n]["group"] for n in ("x", "y")}, self.content["quantity"]
-        return Records(
-            [
-                {group: point[name] for name, group in axes.items()}
-                | {"status": point["status"], "quantity": quantity}
-                | point.get("quantities", {}).get(quantity, {})
-                for point in self.content["points"]
-            ]
-        )
+        axes, quantity = {n: self.content[n]["group"] for n in "xy"}, self.content["quantity"]
+        records = []
+        for point in self.content["points"]:
+            at = {group: point[name] for name, group in axes.items()}
+            at |= {"status": point["status"], "quantity": quantity}
+            records.append(at | point.get("quantities", {}).get(quantity, {}))
+        return Records(records)
 
-    @property
-    def exit_status(self) -> ExitStatus:
-        return exit_status(self.content["points"])
+    def pictures(self) -> "dict[str, Callable[[], Figure]]":
+        return {"map": partial(map_figure, self.content, self.mark)}
 
-    @property
-    def plot(self) -> NamedPictures:
-        """`plot.map()`."""
-        from comparisons.grid.map_picture import map_figure
-
-        return NamedPictures(map=partial(map_figure, self.content))
-
-    def write(self, folder: str | os.PathLike) -> None:
-        """Write map.json and the picture into a folder."""
-        publish(Path(folder), _files(self.content, None), FILES)
+    def texts(self) -> dict[str, str]:
+        return {MAP: as_json(self.content)}
 
     def tables(self) -> "Text":
-        return map_table(self.content, self.folder)
+        """How many points are within each tolerance, and of which kind."""
+        from rich.text import Text
+
+        content, points = self.content, self.content["points"]
+        kinds = Counter(point.get("error", point["status"]) for point in points)
+        within = ", ".join(
+            f"{percent_as_written(t)} at {points_within(content, t)}" for t in content["tolerances"]
+        )
+        counts = ", ".join(f"{kinds[kind]} {words}" for kind, words in KINDS.items() if kinds[kind])
+        lines = [
+            f"model error of the half-plane, {label(content['quantity'])}: within {within} points",
+            f"{len(points)} points: {counts}",
+            f"made by: {content['command']}",
+            *self.told(),
+        ]
+        return Text("\n".join(lines))

@@ -1,4 +1,4 @@
-"""A scene of the user's on a map: where it lies, and what it is that the map's own is not.
+"""A scene of the user's on a map: where it lies, and in what it differs from the map's own.
 
 A map is of one scene with values of two groups: rigid rollers, one wave in place of a trace. The
 error of another scene with the same values is a guide alone."""
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
 from comparisons.figures.quantity import MODELS, QUANTITIES
-from comparisons.grid.groups import GROUPS, smooth_problem
+from comparisons.grid.groups import GROUPS
+from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
 from comparisons.runs.run import posed
 from comparisons.scenes.scene import Origin, Scene
@@ -19,8 +20,10 @@ from meshes.block import MeshError
 if TYPE_CHECKING:
     from comparisons.grid.map_picture import Mark
 
-SAME_RATIO = 0.01  # of Poisson's ratios that count as one
-SAME_CURVATURE = 0.2  # relative, of a/R where a map has one for all its points
+RATIO, NU, COATING, CURVATURE = "roller's modulus", "Poisson's ratio", "coating's ratio", "a/R"
+LIKE = {RATIO: 0.01, NU: 0.02, COATING: 0.02, CURVATURE: 0.2}  # relative, of what counts as one
+GROUP_OF = {NU: "poissons_ratio", RATIO: "modulus_ratio", "friction": "friction_dundurs"}
+GROUP_OF |= {"width": "a_over_width"}
 
 
 def problem_named(name: str) -> Problem:
@@ -60,46 +63,38 @@ def mark_of(content: dict, problem: Problem) -> "Mark":
 
 
 def unlike(content: dict, problem: Problem) -> str:
-    """What a scene that `mark_of` takes is and the map's is not, its groups apart, or nothing."""
-    scene, posed = problem.scene, content["scene"]
-    body, profile = posed["body"], posed.get("profile")
-    axes = {content["x"]["group"], content["y"]["group"]}
-    rigid, nu = posed["roller"].get("rigid", False), body["poissons_ratio"]
-    finite = content["finite_element"].get("deformation") == "finite"
-    reasons, ratio_of = {}, GROUPS["modulus_ratio"].value_of
-    if scene.roller.rigid != rigid:
-        reasons["roller"] = f"has {'an elastic' if rigid else 'a rigid'} roller"
-    elif not rigid and abs(ratio_of(problem) / ratio_of(_smooth(content)) - 1.0) > SAME_RATIO:
-        reasons["roller"] = "has a roller of another stiffness"
-    if "poissons_ratio" not in axes and abs(scene.body.poissons_ratio - nu) > SAME_RATIO:
-        reasons["ratio"] = f"has Poisson's ratio {scene.body.poissons_ratio:g}, not {nu:g}"
-    if scene.coating is not None and "coating_over_a" not in axes:
-        reasons["coating"] = "has a coating"
-    elif scene.coating is not None and "coating" in posed:
-        its, value = posed["coating"]["poissons_ratio"], scene.coating.poissons_ratio
-        if abs(value - its) > SAME_RATIO:
-            reasons["coating"] = f"has a coating of Poisson's ratio {value:g}, not {its:g}"
+    """In what a scene that `mark_of` takes differs from the map's, its groups apart, or nothing."""
+    its, maps = traits(problem), traits(problem_of(Scene.of(content["scene"], Origin("map"))))
+    grouped = {GROUP_OF.get(name): name for name in its}
+    for axis in "xy":
+        its.pop(grouped.get(content[axis]["group"]), None)
+    if content["finite_element"].get("deformation") != "finite":
+        del its["law of elasticity"]
+    differ = []
+    for name, value in its.items():
+        wanted, both = maps[name], (value, maps[name])
+        numbers = all(isinstance(one, float) for one in both)
+        if abs(value - wanted) > LIKE[name] * wanted if numbers else value != wanted:
+            words = (f"{one:.2g}" if isinstance(one, float) else one for one in both)
+            differ.append(f"{name} is {', not '.join(words)}")
+    return "; ".join(differ)
+
+
+def traits(problem: Problem) -> dict[str, float | str]:
+    """What all points of a map have in common, and another scene need not. The roller's modulus is
+    over the body's, the coating's ratio Poisson's."""
+    scene, body = problem.scene, problem.scene.body
     stresses = any(QUANTITIES[name].needs_stress for name in scene.tolerances)
-    slides = any(scene.load.friction) and not any(posed["load"]["friction"])
-    if slides and stresses and "friction_dundurs" not in axes:
-        reasons["friction"] = "slides"
-    if scene.body.width is not None and "a_over_width" not in axes:
-        reasons["width"] = "has a width of its own"
-    if scene.body.base not in (None, body.get("base") or "bonded"):
-        reasons["base"] = "lies on another base"
-    if scene.finite_element.plastic:
-        reasons["flow"] = "flows"
-    if finite and scene.body.law not in (None, "neo-hookean"):
-        reasons["law"] = "has another law of elasticity"
-    if profile is not None:
-        if scene.profile.kind != profile["kind"]:
-            reasons["wave"] = f"is no {profile['kind']}"
-        its, value = (GROUPS["a_over_radius"].value_of(p) for p in (_smooth(content), problem))
-        if abs(value / its - 1.0) > SAME_CURVATURE:
-            reasons["curvature"] = f"has a/R = {value:.2g}, not {its:.2g}"
-    return ", ".join(reasons.values())
-
-
-def _smooth(content: dict) -> Problem:
-    """Of the map's own scene."""
-    return smooth_problem(Scene.of(content["scene"], Origin("map")))
+    rough = scene.profile is not None
+    return {
+        RATIO: "infinite" if scene.roller.rigid else GROUPS["modulus_ratio"].value_of(problem),
+        NU: body.poissons_ratio,
+        COATING: "none" if scene.coating is None else scene.coating.poissons_ratio,
+        "friction": "some" if stresses and any(scene.load.friction) else "none",
+        "width": "infinite" if body.width is None else "finite",
+        "base": body.base or "bonded",
+        "flow": "plastic" if scene.finite_element.plastic else "none",
+        "law of elasticity": body.law or "neo-hookean",
+        "profile": scene.profile.kind if rough else "none",
+        CURVATURE: GROUPS["a_over_radius"].value_of(problem) if rough else "any",
+    }

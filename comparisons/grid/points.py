@@ -6,23 +6,31 @@ process on one thread; it is on disk as soon as it is done."""
 
 import itertools
 import math
+import os
+from abc import abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
 
 from comparisons.common.cache import Cache
 from comparisons.common.errors import ExitStatus, InputError, SceneError, one_line
 from comparisons.common.executors import cluster
-from comparisons.common.files import check_writable
+from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import is_whole
 from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import key_of, program_code, versions
 from comparisons.common.tasks import ProcessEnded, Tasks, called
+from comparisons.drawing.style import NamedPictures, svgs
+from comparisons.output.terminal import Printed
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import scene_key, surface_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SOLVED, FAILED = "solved", "failed"
 UNCONVERGED = "not converged"  # verdict of a run
@@ -99,13 +107,51 @@ def failures(points: Iterable[dict]) -> Counter[str]:
     return Counter(point["why"] for point in points if point["status"] == FAILED)
 
 
-def exit_status(points: Iterable[dict]) -> ExitStatus:
-    """3 where a solver did not converge, or found nothing, at a point."""
-    unsolved = any(
-        point.get("verdict") == UNCONVERGED or (point["status"] == FAILED and not point["wrong"])
-        for point in points
-    )
-    return ExitStatus.NOT_CONVERGED if unsolved else ExitStatus.DONE
+@dataclass(frozen=True, repr=False)
+class Grid(Printed):
+    """What is found at all points: `content` of its JSON file, in `folder` if it was kept."""
+
+    FILES: ClassVar[tuple[str, ...]]  # that there may be, the JSON file first
+
+    content: dict
+    folder: Path | None
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        """3 where a solver did not converge, or found nothing, at a point."""
+        unsolved = any(
+            point.get("verdict") == UNCONVERGED
+            or (point["status"] == FAILED and not point["wrong"])
+            for point in self.content["points"]
+        )
+        return ExitStatus.NOT_CONVERGED if unsolved else ExitStatus.DONE
+
+    @abstractmethod
+    def pictures(self) -> "dict[str, Callable[[], Figure]]":
+        """What draws each picture, by name."""
+
+    @abstractmethod
+    def texts(self) -> dict[str, str]:
+        """Contents of the other files, by name."""
+
+    @property
+    def plot(self) -> NamedPictures:
+        """`plot.NAME()` for each of `pictures`."""
+        return NamedPictures(**self.pictures())
+
+    def told(self) -> list[str]:
+        """How many points failed, by why, and the files that were written."""
+        whys = failures(self.content["points"])
+        lines = [f"failed, {count}: {why}" for why, count in whys.most_common()]
+        if self.folder is None:
+            return lines
+        there = [str(self.folder / name) for name in self.FILES if (self.folder / name).is_file()]
+        return [*lines, f"written: {', '.join(there)}"]
+
+    def write(self, folder: str | os.PathLike) -> None:
+        """Write the files into a folder."""
+        drawn = svgs({f"{name}.svg": draw for name, draw in self.pictures().items()})
+        publish(Path(folder), self.texts() | drawn, self.FILES)
 
 
 @contextmanager

@@ -6,52 +6,53 @@ import glob
 import os
 import re
 import shlex
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from math import prod
-from operator import itemgetter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
-from comparisons.common.files import csv_text, publish
+from comparisons.common.files import csv_text
 from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
-from comparisons.figures.figure import grouped
-from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE
 from comparisons.grid.points import (
     SCENE,
     SOLVED,
     TRACE,
+    Grid,
     Point,
     Value,
     failures,
     points_of,
     solved_in,
 )
-from comparisons.grid.sweep_picture import FRICTION, PICTURE, POSITION, ZONES, drawn
-from comparisons.judging import contact
-from comparisons.judging.study import MODEL_ERROR
+from comparisons.grid.sweep_picture import FRICTION, POSITION, sweep_figure, zone_map_figure
+from comparisons.grid.table import points_table, scatter, scatter_table
 from comparisons.models.posing import problem_of
 from comparisons.output.flat_csv import harmless
 from comparisons.output.plausibility import warnings_about, warnings_about_result
-from comparisons.output.records import COLUMNS, Row
+from comparisons.output.records import COLUMNS, Records
 from comparisons.output.result import result_of
+from comparisons.output.terminal import plain_text
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Scene, assignments, dimension_of
 from comparisons.scenes.surface import surface_of
 from comparisons.studies import quiescent_zone
-from comparisons.studies.friction import PARTIAL_SLIP
-from comparisons.studies.heat import STUDY as HEAT
 from meshes.block import MeshError
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Group
+
 SWEEP, TABLE = "sweep.json", "sweep.csv"
-FILES = (SWEEP, TABLE, PICTURE, ZONES)
 SCHEMA = 2
 MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N, position=N or profile.file=FOLDER"
@@ -59,7 +60,6 @@ MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of 
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/output")
 CODE += tuple(f"comparisons/grid/{name}.py" for name in ("points", "sweep"))
-NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
 
 
@@ -208,26 +208,19 @@ def make_sweep(
     out: Path,
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
-) -> dict:
-    """Solve the points that `out` does not have, write table and pictures there, return the
-    content.
+) -> "Sweep":
+    """The sweep, in `out`, where the points are solved that it does not have.
 
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, for a value with which no scene can be posed, and
     where no point has an answer."""
-    answers = solved_in(out, FILES, request.points, solved, workers, callback, why_not)
-    content = sweep_content(request, answers)
-    whys = failures(content["points"])
-    if whys.total() == len(content["points"]):
+    answers = solved_in(out, Sweep.FILES, request.points, solved, workers, callback, why_not)
+    whys = failures(answers)
+    if whys.total() == len(answers):
         raise InputError(next(iter(whys)))
-    write_sweep(content, out)
-    return content
-
-
-def write_sweep(content: dict, out: Path) -> None:
-    """Write sweep.json, the table of every figure and the pictures into a folder."""
-    files = {TABLE: sweep_csv(content), SWEEP: as_json(content)}
-    publish(out, files | drawn(content), FILES)
+    made = Sweep(sweep_content(request, answers), out)
+    made.write(out)
+    return made
 
 
 def why_not(point: Point) -> str | None:
@@ -284,52 +277,39 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
     }
 
 
-def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
-    """By what names a figure, friction None where it is swept: number of values, mean, standard
-    deviation of the sample, smallest and largest."""
-    order = {name: number for number, name in enumerate(QUANTITIES)}
-    swept = {"friction": None} if over_friction else {}
-    known = [row | swept for point in points for row in point["rows"] if _is_scattered(row)]
-    groups = grouped(known, itemgetter(*NAMED))
-    groups.sort(key=lambda g: (order.get(g[0]["quantity"], len(order)), g[0]["friction"] or 0.0))
-    spreads = []
-    for group in groups:
-        values = [row["value"] for row in group]
-        deviation = float(np.std(values, ddof=1)) if len(values) > 1 else None
-        spreads.append(
-            {
-                **{name: group[0][name] for name in NAMED},
-                "count": len(values),
-                "mean": float(np.mean(values)),
-                "standard_deviation": deviation,
-                "smallest": min(values),
-                "largest": max(values),
-            }
-        )
-    return spreads
+@dataclass(frozen=True, repr=False)
+class Sweep(Grid):
+    """Scenes at many values of their fields."""
 
+    FILES = SWEEP, TABLE, "sweep.svg", f"{quiescent_zone.NAME}.svg"
 
-def _is_scattered(row: Row) -> bool:
-    """Whether a row is a figure by a model or a model error, of what models are compared by."""
-    study, model = row["study"], row["source"] in MODELS
-    if study in (PARTIAL_SLIP.name, HEAT.name):
-        return model and row["against"] is None
-    compared = (study, row["against"]) in ((contact.NAME, None), (MODEL_ERROR, WHOLE))
-    return model and compared and row["quantity"] in QUANTITIES
+    @property
+    def figures(self) -> Records:
+        """Those of every point, each with the values of the swept fields first, as records."""
+        names, rows = [axis["field"] for axis in self.content["over"]], []
+        for point in self.content["points"]:
+            at = dict(zip(names, point["values"], strict=True))
+            rows += [at | row | at for row in point["rows"]]
+        return Records(rows)
 
+    def pictures(self) -> "dict[str, Callable[[], Figure]]":
+        """Each figure over the first swept field; quiescent zones, where there are any."""
+        draws = {"sweep": sweep_figure}
+        if any(quiescent_zone.NAME in point for point in self.content["points"]):
+            draws |= {quiescent_zone.NAME: zone_map_figure}
+        return {name: partial(draw, self.content) for name, draw in draws.items()}
 
-def rows_of_points(content: dict) -> list[Row]:
-    """The figures of every point as records, each with the values of the swept fields first."""
-    names, rows = [axis["field"] for axis in content["over"]], []
-    for point in content["points"]:
-        at = dict(zip(names, point["values"], strict=True))
-        rows += [at | row | at for row in point["rows"]]
-    return rows
+    def texts(self) -> dict[str, str]:
+        columns = dict.fromkeys((*(axis["field"] for axis in self.content["over"]), *COLUMNS))
+        rows = ([harmless(row[name]) for name in columns] for row in self.figures.rows)
+        return {SWEEP: as_json(self.content), TABLE: csv_text([columns, *rows])}
 
+    def tables(self) -> "Group":
+        """The points, the scatter over all of them, and how many failed, by why."""
+        from rich.console import Group
 
-def sweep_csv(content: dict) -> str:
-    """A row for each figure of each point: the swept fields, and the columns of
-    `comparisons.output.records`."""
-    columns = dict.fromkeys((*(axis["field"] for axis in content["over"]), *COLUMNS))
-    rows = ([harmless(row[name]) for name in columns] for row in rows_of_points(content))
-    return csv_text([columns, *rows])
+        points, over = self.content["points"], self.content["over"]
+        values = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in over)
+        many = f"{len(points)} scenes ({values}), {failures(points).total()} failed"
+        tables = *points_table(self.content), "", scatter_table(self.content)
+        return Group(*tables, *map(plain_text, (many, *self.told())))

@@ -4,7 +4,6 @@ In: the content of sweep.json. Out: SVG, the same for the same content."""
 
 import os
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -24,8 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PICTURE = "sweep.svg"
-ZONES = "quiescent_zone.svg"
 POSITION, FRICTION = "load.position", "load.friction"
 SAMPLES = POSITION, TRACE  # axes whose values are a sample; others are chosen
 WORDS = {POSITION: "position of the roller on the trace", TRACE: "trace", SCENE: "scene"}
@@ -43,19 +40,6 @@ NUMBERS = "numbers: least mean shear over the Hertz zone's"
 COLOURS = {QUIESCENT: "#56B4E9", UNCLEAR: "#F0E442", BRIDGED: "#E69F00", SMOOTH: "#e4e4e4"}
 CELL, LEAST_WIDE = (0.5, 0.24), 5.0  # inches, of the zones' map
 SQUARE = (-0.5, 0.5, 0.5, -0.5), (-0.5, -0.5, 0.5, 0.5)
-
-
-def drawn(content: dict) -> dict[str, str]:
-    """SVG by file: the sweep, and where its points have quiescent zones their map."""
-    draws = {PICTURE: partial(sweep_figure, content)}
-    if has_zones(content):
-        draws[ZONES] = partial(zone_map_figure, content)
-    return style.svgs(draws)
-
-
-def has_zones(content: dict) -> bool:
-    """Whether a point has a rough scene whose stresses reach deep enough."""
-    return any(quiescent_zone.NAME in point for point in content["points"])
 
 
 @dataclass(frozen=True)
@@ -119,7 +103,7 @@ def sweep_figure(content: dict) -> "Figure":
         _draw_lines(panel, lines[name], name, sample)
         if not axes[0].is_number:
             panel.set_xticks(axes[0].places[::every_nth], written, rotation=90.0 * upright)
-    over(stack, axes[0].label)
+    over(stack, "" if upright else axes[0].label)
     stack[0].set_title(content["scene"]["title"], loc="left")
     if labels:
         drawn.legend(*stack[0].get_legend_handles_labels(), loc="lower left", ncols=abreast)

@@ -1,96 +1,36 @@
-"""What a sweep prints: a table by point, the scatter of every figure, and warnings.
+"""The tables of a sweep: a row a point, the scatter of every figure; and its warnings.
 
-In: the content of sweep.json. Out: tables for the terminal, and lines."""
+In: the content of sweep.json. Out: tables for the terminal, lines."""
 
-import os
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from pathlib import Path
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import ExitStatus
+import numpy as np
+
 from comparisons.common.numbers import percent, percent_as_written, rounded_up, with_unit
-from comparisons.drawing.style import NamedPictures
-from comparisons.figures.quantity import QUANTITIES, error_text
-from comparisons.grid.points import FAILED, exit_status, failures
-from comparisons.grid.sweep import SWEEP, TABLE, rows_of_points, write_sweep
-from comparisons.grid.sweep_picture import (
-    DRAWN,
-    PICTURE,
-    SAMPLES,
-    ZONES,
-    Axis,
-    has_zones,
-    sweep_figure,
-    zone_map_figure,
-)
+from comparisons.figures.figure import grouped
+from comparisons.figures.quantity import MODELS, QUANTITIES, WHOLE, error_text
+from comparisons.grid.points import FAILED
+from comparisons.grid.sweep_picture import DRAWN, SAMPLES, Axis
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
-from comparisons.output.records import Records, Row
-from comparisons.output.terminal import PLAIN, Printed, plain_table, plain_text
+from comparisons.output.records import Row
+from comparisons.output.terminal import PLAIN, plain_table
 from comparisons.studies import quantity_of
+from comparisons.studies.friction import PARTIAL_SLIP
+from comparisons.studies.heat import STUDY as HEAT
 
 if TYPE_CHECKING:
-    from rich.console import Group
+    from rich.console import RenderableType
     from rich.table import Table
 
+NAMED = ("study", "quantity", "source", "friction")  # of the figures whose scatter is stated
 MOST_SHOWN = 100  # points of the table; all are in the files
 NOT_COMPARED = "not compared"  # verdict of a run of one model
 
 Cell = Callable[[dict], str]  # of a column, by point
-
-
-@dataclass(frozen=True, repr=False)
-class Sweep(Printed):
-    """Scenes at many values of their fields; `content` is that of sweep.json, in `folder`."""
-
-    content: dict
-    folder: Path | None
-
-    @property
-    def figures(self) -> Records:
-        """Those of every point, each with the values of the swept fields, as records."""
-        return Records(rows_of_points(self.content))
-
-    @property
-    def exit_status(self) -> ExitStatus:
-        return exit_status(self.content["points"])
-
-    @property
-    def plot(self) -> NamedPictures:
-        """`plot.sweep()`, each figure over the first swept field; `plot.zones()`, quiescent zones,
-        where there are any."""
-        zones = {"zones": zone_map_figure} if has_zones(self.content) else {}
-        draws = {"sweep": sweep_figure, **zones}
-        return NamedPictures(**{name: partial(draw, self.content) for name, draw in draws.items()})
-
-    def write(self, folder: str | os.PathLike) -> None:
-        """Write sweep.json, the table and the pictures into a folder."""
-        write_sweep(self.content, Path(folder))
-
-    def tables(self) -> "Group":
-        return sweep_table(self.content, self.folder)
-
-
-def sweep_table(content: dict, out: Path | None) -> "Group":
-    """The points, the scatter over all of them, and how many failed, by why."""
-    from rich.console import Group
-
-    points, whys = content["points"], failures(content["points"])
-    over = " x ".join(f"{len(axis['values'])} of {axis['field']}" for axis in content["over"])
-    files = TABLE, PICTURE, *([ZONES] if has_zones(content) else []), SWEEP
-    written = [] if out is None else [f"sweep: {', '.join(str(out / name) for name in files)}"]
-    left = len(points) - MOST_SHOWN
-    return Group(
-        _points(content),
-        *([f"{left} points more are in the files"] if left > 0 else []),
-        "",
-        _scatter(content),
-        plain_text(f"{len(points)} scenes ({over}), {whys.total()} failed"),
-        *(plain_text(f"failed, {count}: {why}") for why, count in whys.items()),
-        *map(plain_text, written),
-    )
 
 
 def warnings_of(content: dict) -> Iterator[str]:
@@ -108,8 +48,9 @@ def warnings_of(content: dict) -> Iterator[str]:
         yield text if len(others) + 1 == len(points) > 1 else f"at {at}{more}: {text}"
 
 
-def _points(content: dict) -> "Table":
-    """A row a point: its values, and every column that has something to say of any point."""
+def points_table(content: dict) -> "tuple[RenderableType, ...]":
+    """A row a point: its values, and every column that has something to say of any point; and how
+    many more there are."""
     from rich.text import Text
 
     shown = content["points"][:MOST_SHOWN]
@@ -121,7 +62,9 @@ def _points(content: dict) -> "Table":
     values = zip(*(point["values"] for point in shown), strict=True)
     at = [map(axis.text, column) for axis, column in zip(axes, values, strict=True)]
     heads = (Text(title.translate(PLAIN)) for title in (*titles, *cells))
-    return plain_table(numbers=heads, rows=zip(*at, *cells.values(), strict=True))
+    table = plain_table(numbers=heads, rows=zip(*at, *cells.values(), strict=True))
+    left = len(content["points"]) - MOST_SHOWN
+    return table, *([f"{left} points more are in the files"] if left > 0 else [])
 
 
 def _verdict(point: dict) -> str:
@@ -169,7 +112,41 @@ def _error(quantity: str, point: dict) -> str:
     return f"{error_text(largest['value'], unsure)} ± {percent(unsure)}".replace(" %", "")
 
 
-def _scatter(content: dict) -> "Table":
+def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
+    """By what names a figure, friction None where it is swept: number of values, mean, standard
+    deviation of the sample, smallest and largest."""
+    order = {name: number for number, name in enumerate(QUANTITIES)}
+    swept = {"friction": None} if over_friction else {}
+    known = [row | swept for point in points for row in point["rows"] if _is_scattered(row)]
+    groups = grouped(known, itemgetter(*NAMED))
+    groups.sort(key=lambda g: (order.get(g[0]["quantity"], len(order)), g[0]["friction"] or 0.0))
+    spreads = []
+    for group in groups:
+        values = [row["value"] for row in group]
+        deviation = float(np.std(values, ddof=1)) if len(values) > 1 else None
+        spreads.append(
+            {
+                **{name: group[0][name] for name in NAMED},
+                "count": len(values),
+                "mean": float(np.mean(values)),
+                "standard_deviation": deviation,
+                "smallest": min(values),
+                "largest": max(values),
+            }
+        )
+    return spreads
+
+
+def _is_scattered(row: Row) -> bool:
+    """Whether a row is a figure by a model or a model error, of what models are compared by."""
+    study, model = row["study"], row["source"] in MODELS
+    if study in (PARTIAL_SLIP.name, HEAT.name):
+        return model and row["against"] is None
+    compared = (study, row["against"]) in ((contact.NAME, None), (MODEL_ERROR, WHOLE))
+    return model and compared and row["quantity"] in QUANTITIES
+
+
+def scatter_table(content: dict) -> "Table":
     """Smallest and largest of every figure; over placements and traces mean and standard deviation,
     too, which mean nothing of values that are chosen. All of an error are in its per cent, of a
     figure the deviation in per cent of the mean."""

@@ -116,14 +116,34 @@ def test_a_point_of_a_map_is_marked_where_it_is(name):
 @pytest.mark.parametrize(
     ("name", "section", "changes", "why"),
     [
-        ("modulus-coating", "roller", {"youngs_modulus": 300e9}, "has a roller of another stiff"),
-        ("modulus-coating", "coating", {"poissons_ratio": 0.2}, "has a coating of Poisson's ratio"),
-        ("curvature-thickness", "roller", {"rigid": False, **STEEL}, "has an elastic roller"),
-        ("curvature-thickness", "body", {"poissons_ratio": 0.4}, "has Poisson's ratio 0.4"),
-        ("curvature-thickness", "coating", {"thickness": 1e-6, **STEEL}, "has a coating"),
-        ("curvature-thickness", "load", {"friction": [0.1]}, "slides"),
-        ("curvature-thickness", "body", {"base": "frictionless"}, "lies on another base"),
-        ("curvature-thickness", "body", {"law": "hencky"}, "has another law of elasticity"),
+        ("modulus-coating", "roller", {"youngs_modulus": 300e9}, "roller's modulus is 1.5, not 1"),
+        ("modulus-coating", "coating", {"poissons_ratio": 0.2}, "coating's ratio is 0.2, not 0.3"),
+        (
+            "curvature-thickness",
+            "roller",
+            {"rigid": False, **STEEL},
+            "roller's modulus is 1, not infinite",
+        ),
+        ("curvature-thickness", "body", {"poissons_ratio": 0.4}, "Poisson's ratio is 0.4, not 0.3"),
+        (
+            "curvature-thickness",
+            "coating",
+            {"thickness": 1e-6, **STEEL},
+            "coating's ratio is 0.3, not none",
+        ),
+        ("curvature-thickness", "load", {"friction": [0.1]}, "friction is some, not none"),
+        (
+            "curvature-thickness",
+            "body",
+            {"base": "frictionless"},
+            "base is frictionless, not bonded",
+        ),
+        (
+            "curvature-thickness",
+            "body",
+            {"law": "hencky"},
+            "law of elasticity is hencky, not neo-hookean",
+        ),
     ],
 )
 def test_what_a_scene_differs_by_from_the_map_s(name, section, changes, why):
@@ -187,4 +207,5 @@ def test_a_mark_of_another_kind_is_told(tmp_path, capsys):
     out = str(tmp_path / "map")
     assert main(["map", "slope-wavelength", "--mark", "sinusoid", "--out", out]) == 0
     said = capsys.readouterr().err
-    assert "--mark: sinusoid has an elastic roller, has another law of elasticity" in said
+    assert "--mark: sinusoid is not the map's scene: roller's modulus is 1, not infinite; " in said
+    assert "; law of elasticity is murnaghan, not neo-hookean; " in said

@@ -14,8 +14,8 @@ from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, called
-from comparisons.grid.map import MAP, PICTURE, make_map, map_table, request_of
-from comparisons.grid.points import exit_status, failed
+from comparisons.grid.map import MAP, PICTURE, make_map, request_of
+from comparisons.grid.points import failed
 
 SCENE = """
 title = "Small"
@@ -114,13 +114,14 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     monkeypatch.setattr(
         "comparisons.grid.points.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
     )
-    content = make_map(request, tmp_path / "out")
-    whys = [point["why"] for point in content["points"]]
+    made = make_map(request, tmp_path / "out")
+    points = made.content["points"]
+    whys = [point["why"] for point in points]
     assert whys == ["no 0.2", "no 0.2", "no 0.3", "no 0.3"]
-    assert exit_status(content["points"]) == ExitStatus.DONE
-    content["points"][0]["wrong"] = False
-    assert exit_status(content["points"]) == ExitStatus.NOT_CONVERGED
-    assert "failed, 2: " in map_table(content, tmp_path).plain
+    assert made.exit_status == ExitStatus.DONE
+    points[0]["wrong"] = False
+    assert made.exit_status == ExitStatus.NOT_CONVERGED
+    assert "failed, 2: " in repr(made)
 
 
 def test_a_map_with_a_value_that_no_scene_has_solves_and_writes_nothing(scene, tmp_path, complaint):

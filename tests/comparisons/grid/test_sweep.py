@@ -16,9 +16,9 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError, SolverError
 from comparisons.common.tasks import Tasks
 from comparisons.drawing import style
-from comparisons.grid.sweep import MARGIN, scatter, sweep_request
+from comparisons.grid.sweep import MARGIN, Sweep, sweep_request
 from comparisons.grid.sweep_picture import sweep_figure, zone_map_figure
-from comparisons.grid.table import sweep_table, warnings_of
+from comparisons.grid.table import scatter, warnings_of
 from comparisons.models.posing import problem_of
 
 WAVES = {
@@ -103,7 +103,7 @@ def test_pressure_follows_the_root_of_the_load():
 def printed(content) -> list[list[str]]:
     """Lines of the table of a sweep, in words."""
     text = io.StringIO()
-    Console(file=text, width=120).print(sweep_table(content, None))
+    Console(file=text, width=120).print(Sweep(content, None).tables())
     return [line.split() for line in text.getvalue().splitlines()]
 
 
@@ -233,7 +233,7 @@ def test_points_that_fail_are_told_with_the_status_of_solvers(made, tmp_path, ca
 
     tasks = "comparisons.grid.points.tasks_by"
     monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
-    monkeypatch.setattr("comparisons.grid.sweep.drawn", lambda _: {})
+    monkeypatch.setattr(Sweep, "pictures", lambda _: {})
     monkeypatch.setattr("comparisons.grid.sweep.solved", solved)
     assert main([*made[1][:3], str(tmp_path / "out"), *made[1][4:]]) == 3
     assert "2 failed\nfailed, 2: no luck" in capsys.readouterr().out
