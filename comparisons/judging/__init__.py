@@ -1,7 +1,7 @@
 """A model is judged against one that drops its assumptions.
 
     rule           figures of a model, differences from another, the uncertainty of either
-    contact        each model by itself          comparison, layered    two of one problem
+    contact        each model by itself          comparison             two of one problem
     coupling       what friction moves           yielding               what flows
     effects        the half-plane's assumptions, each with what dropping it may change
     model_error    the half-plane against the whole: finite elements with all that matters

@@ -56,13 +56,8 @@ exceeds a tenth of a tolerance; an effect that was not computed counts with its 
 
 
 def blocks(run: Run) -> list[Block]:
-    items = Pictures(("model_error",)), error_table, Note(NOTE), _effects
+    items = Pictures(("model_error",)), error_table, Note(NOTE), effects_table, Note(OF_EFFECTS)
     return [Block("model-error", items, "Model error of the half-plane")]
-
-
-def _effects(run: Run) -> list:
-    table = effects_table(run)
-    return [] if table is None else [table, Note(OF_EFFECTS)]
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
@@ -215,8 +210,8 @@ def not_modelled_line(run: Run) -> str:
     return "; ".join(parts)
 
 
-def effects_table(run: Run) -> TextTable | None:
-    """What became of each effect that the half-plane does not model; None without any."""
+def effects_table(run: Run) -> TextTable:
+    """What became of each effect that the half-plane does not model."""
     rows = []
     for row in run.findings[MODEL_ERROR].table("effects").rows():
         if row["status"] != "does not apply":
@@ -225,7 +220,7 @@ def effects_table(run: Run) -> TextTable | None:
             largest = percent(_largest(run, estimate)) if estimate else ""
             rows.append((effect.label, effect.words, row["status"], largest, row["because"]))
     head = ("effect", "not modelled by the half-plane", "status", "estimate, at most", "because")
-    return TextTable("", head, tuple(rows), "comparison prose") if rows else None
+    return TextTable("", head, tuple(rows), "comparison prose")
 
 
 def _largest(run: Run, estimate: dict[str, float]) -> float:
