@@ -18,72 +18,56 @@ from comparisons.grid.map import Map, finished_map
 from comparisons.runs.finished import FinishedRun
 from comparisons.scenes.surface import surface_of
 
-SMALL = {
+SLIDING = {
+    "title": "Smooth",
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": STEEL,
+    "load": {"per_length": 1e6, "friction": [0.0, 0.1]},
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
     "stress": {"points": [12, 6]},
     "resolution": {"pitch": 30e-6, "levels": 2},
     "finite_element": {"block": 10, "growth": 0.5},
     "budget": {"effects": False, "time": 0.9},
 }
-SCENES = {
-    "smooth, sliding": {
-        "title": "Smooth",
-        "roller": {"radius": 8e-3, **STEEL},
-        "body": STEEL,
-        "load": {"per_length": 1e6, "friction": [0.0, 0.1]},
-        **SMALL,
-    },
-    "wavy, capped": {
-        "title": "Wavy",
-        "roller": {"radius": 8e-3, "rigid": True},
-        "body": STEEL | {"hardness": 3e9},
-        "profile": {"kind": "sinusoid", "wavelength": 2e-4, "amplitude": 2e-7},
-        "load": {"hertz_peak_pressure": 1e9},
-        **SMALL,
-        "resolution": {"pitch": 5e-6, "levels": 2},
-    },
-}
 
 
-@pytest.fixture(params=SCENES)
-def tables(request) -> dict:
-    return SCENES[request.param]
+@pytest.fixture(scope="module")
+def sliding() -> FinishedRun:
+    return crosscheck.run(SLIDING)
 
 
-def test_the_same_scene_from_python_and_from_the_command_line(
-    tables, tmp_path, capsys, monkeypatch
+def test_python_says_what_the_command_line_prints_and_writes(
+    sliding, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("comparisons.output.page.page.render", lambda *_: "")
-    Path("scene.toml").write_text(as_toml(tables))
+    Path("scene.toml").write_text(as_toml(SLIDING))
     status = main(["run", "scene.toml", "--out", "out", "--json"])
     printed = without_cost(json.loads(capsys.readouterr().out))
-    finished = crosscheck.run(tables)
-    assert without_cost(json.loads(json.dumps(finished.result))) == printed
-    assert status == finished.outcome.exit_status
+    assert without_cost(json.loads(json.dumps(sliding.result))) == printed
+    assert status == sliding.exit_status
     again = crosscheck.read("out")
     assert without_cost(again.result) == printed
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
-def test_a_run_prints_in_ten_lines_and_shows_its_tables(tables):
-    finished = crosscheck.run(tables)
-    title, first, *others = str(finished).splitlines()
-    assert title == tables["title"] and len(others) <= 8
-    assert "\x1b" not in str(finished) and max(map(len, others)) <= 100
-    assert finished.within == max(error.reach for error in finished.outcome.model_errors)
+def test_a_run_prints_in_ten_lines_and_shows_its_tables(sliding):
+    title, first, *others = str(sliding).splitlines()
+    assert title == SLIDING["title"] and len(others) <= 8
+    assert "\x1b" not in str(sliding) and max(map(len, others)) <= 100
+    assert sliding.within == max(error.reach for error in sliding.outcome.model_errors)
     assert first.startswith("The half-plane is right within ")
-    assert any(line.lower().startswith(finished.verdict) for line in others[:2])
+    assert any(line.lower().startswith(sliding.verdict) for line in others[:2])
     assert any(line.startswith("peak pressure") and "whole" in line for line in others)
     assert any(line.startswith("Next:  ") for line in others)
-    html = finished._repr_html_()
+    html = sliding._repr_html_()
     assert html.startswith("<pre") and "model error of the half-plane" in html
 
 
 def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    Path("scene.toml").write_text(as_toml(SCENES["smooth, sliding"]))
-    by_path, by_tables = scene_of("scene.toml"), scene_of(SCENES["smooth, sliding"])
+    Path("scene.toml").write_text(as_toml(SLIDING))
+    by_path, by_tables = scene_of("scene.toml"), scene_of(SLIDING)
     assert by_path.tables == by_tables.tables == scene_of(by_path).tables
     assert surface_of(scene_of("ground-unrun")).info.samples == 2237
 
