@@ -89,31 +89,11 @@ def unsolved(problem: Problem, plan: Plan) -> Solved:
     return Solved(problem, plan, cases)
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
-    """A finished run: all that its files, tables and page are made of."""
+class Found:
+    """What the studies of a run have found, and what it answers for by that."""
 
-    solved: Solved
     findings: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
-    record: dict  # the content of record.json
-    directory: Path | None  # where the files are, None for a run without files
-    studies: "tuple[Study, ...]" = ()  # those that the run has
-
-    @property
-    def problem(self) -> Problem:
-        return self.solved.problem
-
-    @property
-    def plan(self) -> Plan:
-        return self.solved.plan
-
-    @property
-    def window(self) -> Window | None:
-        return self.problem.window
-
-    @property
-    def runs(self) -> Mapping[str, Solution]:
-        return self.solved.runs
+    frictions: Sequence[float]  # the scene's coefficients
 
     @cached_property
     def figures(self) -> Figures:
@@ -140,15 +120,65 @@ class Run:
         """The half-plane's, those that are judged."""
         return self.judged.of(study=MODEL_ERROR)
 
-    def data(self, study: str) -> object | None:
-        """What the pictures of a study are drawn from; None where the run has not done it."""
-        return self.findings[study].data if study in self.findings else None
-
     @property
     def converged(self) -> bool:
         """Whether every solution met its contact conditions, and running-in did."""
         said = (words for findings in self.findings.values() for words in findings.statements)
         return all(words.text == "yes" for words in said if words.name == CONVERGED)
+
+    @property
+    def deciding_friction(self) -> float:
+        """The coefficient at which a judged model error exceeds its tolerance most, or comes
+        nearest to it; the last one without any."""
+        errors = self.model_errors
+        worst = max(errors, key=lambda error: abs(error.value) / error.tolerance, default=None)
+        return self.frictions[-1] if worst is None else worst.friction
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        """3: a solver did not converge; 1: a judged figure differs or fails; 4: none does, but one
+        is inconclusive; else 0."""
+        if not self.converged:
+            return ExitStatus.NOT_CONVERGED
+        verdicts = {figure.verdict for figure in self.judged}
+        if verdicts & set(FAILED):
+            return ExitStatus.OUTSIDE_TOLERANCE
+        return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
+
+
+@dataclass(frozen=True, eq=False)
+class Run(Found):
+    """A finished run: all that its files, tables and page are made of."""
+
+    solved: Solved
+    findings: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
+    record: dict  # of result.json
+    directory: Path | None  # where the files are, None for a run without files
+    studies: "tuple[Study, ...]" = ()  # those that the run has
+
+    @property
+    def problem(self) -> Problem:
+        return self.solved.problem
+
+    @property
+    def plan(self) -> Plan:
+        return self.solved.plan
+
+    @property
+    def frictions(self) -> Sequence[float]:
+        return self.problem.scene.load.friction
+
+    @property
+    def window(self) -> Window | None:
+        return self.problem.window
+
+    @property
+    def runs(self) -> Mapping[str, Solution]:
+        return self.solved.runs
+
+    def data(self, study: str) -> object | None:
+        """What the pictures of a study are drawn from; None where the run has not done it."""
+        return self.findings[study].data if study in self.findings else None
 
     def levels(self, friction: float) -> dict[str, Level]:
         """The finest level of every model at a friction coefficient, last of the whole model where
@@ -166,29 +196,6 @@ class Run:
         name, last = list(self.levels(friction).items())[-1]
         first = next(iter(self.solved.case(friction).runs.values()))
         return {first.name: first.beside(last), name: last}
-
-    @property
-    def deciding_friction(self) -> float:
-        """That of `deciding_friction`."""
-        return deciding_friction(self.model_errors, self.problem.scene.load.friction)
-
-    @property
-    def exit_status(self) -> ExitStatus:
-        """3: a solver did not converge; 1: a judged figure differs or fails; 4: none does, but one
-        is inconclusive; else 0."""
-        if not self.converged:
-            return ExitStatus.NOT_CONVERGED
-        verdicts = {figure.verdict for figure in self.judged}
-        if verdicts & set(FAILED):
-            return ExitStatus.OUTSIDE_TOLERANCE
-        return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE
-
-
-def deciding_friction(errors: Figures, frictions: Sequence[float]) -> float:
-    """The coefficient at which a judged model error exceeds its tolerance most, or comes nearest to
-    it; the last of a run's coefficients without any."""
-    worst = max(errors, key=lambda error: abs(error.value) / error.tolerance, default=None)
-    return frictions[-1] if worst is None else worst.friction
 
 
 @dataclass(frozen=True)

@@ -122,7 +122,7 @@ def levels_by_folder(run: Run) -> dict[str, dict[float, Level]]:
     """The finest levels that share a contact, by friction, by the folders of their files; those of
     another contact, where friction changes it, below the first's."""
     levels: dict[str, dict[float, Level]] = {}
-    for friction in run.problem.scene.load.friction:
+    for friction in run.frictions:
         for name, level in run.levels(friction).items():
             first = next(iter(levels.get(name, {}).values()), level)
             folder = name if first.shares_contact(level) else _further(name, friction)

@@ -30,7 +30,6 @@ from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import (
     Column,
     Figure,
-    Figures,
     Findings,
     Part,
     SampleSpread,
@@ -41,7 +40,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import COVERAGE, Uncertainty
 from comparisons.judging import contact
 from comparisons.judging.ladder.study import ESCALATE_TO, SUFFICES
-from comparisons.judging.study import LADDER, MODEL_ERROR, Run, deciding_friction
+from comparisons.judging.study import LADDER, Found, Run
 from comparisons.judging.verdict.headline import headline
 from comparisons.output.arrays import RunArrays
 from comparisons.output.records import RunFigures
@@ -61,7 +60,7 @@ BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, Valu
 
 
 @dataclass(frozen=True, repr=False)
-class Result(Printed):
+class Result(Found, Printed):
     """What a finished run and its folder both say."""
 
     name: str  # the folder's, or the scene's
@@ -90,21 +89,14 @@ class Result(Printed):
         return figures
 
     @property
+    def frictions(self) -> list[float]:
+        return self.scene["load"]["friction"]
+
+    @property
     def models(self) -> tuple[str, ...]:
         """Of half_plane, finite_element, those that were run."""
         solved = {figure.source for figure in self.figures.of(study=contact.NAME)}
         return tuple(name for name in MODELS if name in solved)
-
-    @cached_property
-    def model_errors(self) -> Figures:
-        """The half-plane's, those that are judged."""
-        errors = self.figures.of(study=MODEL_ERROR)
-        return Figures(error for error in errors if error.bounds is not None)
-
-    @property
-    def deciding_friction(self) -> float:
-        """As of a `Run`."""
-        return deciding_friction(self.model_errors, self.scene["load"]["friction"])
 
     def figure(self, quantity: str, source: str, study: str = "contact", **at: float) -> Figure:
         """One of them, by the model or other source that it is of. Raises InputError, with the
@@ -137,13 +129,12 @@ class Result(Printed):
         x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
         [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
         stress across the plane is Poisson's ratio times sx + sz."""
-        frictions = self.scene["load"]["friction"]
-        wanted = frictions[0] if friction is None else friction
+        wanted = self.frictions[0] if friction is None else friction
         stresses = self.arrays.stress(self._known(model), wanted)
         if stresses is None:
             raise InputError(
                 "stress: this run has none there; allowed is a scene with [stress], at friction "
-                + " or ".join(f"{mu:g}" for mu in frictions)
+                + " or ".join(f"{mu:g}" for mu in self.frictions)
             )
         return stresses
 

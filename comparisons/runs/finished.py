@@ -38,10 +38,6 @@ class FinishedRun(Result):
         return cls(**said_of(outcome), outcome=outcome)
 
     @property
-    def exit_status(self) -> ExitStatus:
-        return self.outcome.exit_status
-
-    @property
     def summary(self) -> str:
         """Title, the verdict, the first figures and what to do next, in ten lines."""
         run, said = self.outcome, headline(self.outcome)
@@ -109,7 +105,7 @@ class MethodCosts(FinishedRun):
 
     @property
     def exit_status(self) -> ExitStatus:
-        return ExitStatus.DONE if self.outcome.converged else ExitStatus.NOT_CONVERGED
+        return ExitStatus.DONE if self.converged else ExitStatus.NOT_CONVERGED
 
     def tables(self) -> "RenderableType":
         return cost_summary(self.outcome)

@@ -45,8 +45,8 @@ def test_python_says_what_the_command_line_prints_and_writes(
     status = main(["run", "scene.toml", "--out", "out", "--json"])
     printed = without_cost(json.loads(capsys.readouterr().out))
     assert without_cost(json.loads(json.dumps(sliding.result))) == printed
-    assert status == sliding.exit_status
     again = crosscheck.read("out")
+    assert status == sliding.exit_status == again.exit_status
     assert without_cost(again.result) == printed
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 

@@ -176,7 +176,7 @@ def _before(run: Run) -> Iterator[Block]:
 def _stresses(run: Run) -> Iterator[Block]:
     if run.window is None:
         return
-    frictions = run.problem.scene.load.friction
+    frictions = run.frictions
     deciding = frictions.index(run.deciding_friction)
 
     def of_friction(place: int, *names: str) -> Pictures:

@@ -113,7 +113,7 @@ def judged_picture(run: Run) -> style.Picture | None:
     axes.set_ylim(0.6 - len(errors), 0.85)
     axes.axvspan(-1.0, 1.0, color="#e8eef2", linewidth=0.0, zorder=0.5)
     for row, error in enumerate(errors):
-        _bar(axes, -float(row), error, several=len(run.problem.scene.load.friction) > 1)
+        _bar(axes, -float(row), error, several=len(run.frictions) > 1)
     rows = -np.arange(float(len(errors)))  # between them the line would cross words
     axes.vlines(0.0 * rows, rows - 0.55, rows + ABOVE, color="#555555", linewidth=0.7)
     axes.set_yticks([])

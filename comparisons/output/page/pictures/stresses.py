@@ -88,7 +88,7 @@ def _pictures(
 ) -> list[style.Picture]:
     """One a friction coefficient, of the window's first `rows` depths, `height` inches tall or
     to scale; all on the same colour scales."""
-    hertz, window, frictions = run.problem.hertz, run.window, run.problem.scene.load.friction
+    hertz, window, frictions = run.problem.hertz, run.window, run.frictions
     x, z = window.x / hertz.half_width, window.z[:rows] / hertz.half_width
     fields = [
         {
@@ -180,7 +180,7 @@ def _difference_said(
 def plastic_strain_pictures(run: Run) -> list[style.Picture]:
     """The equivalent plastic strain by the last model, where it flows; one a friction coefficient.
     None without fields."""
-    frictions = run.problem.scene.load.friction if run.window is not None else ()
+    frictions = run.frictions if run.window is not None else ()
     return list(filter(None, (_strain_picture(run, friction) for friction in frictions)))
 
 
@@ -234,7 +234,7 @@ def section_pictures(run: Run) -> list[style.Picture]:
 
 
 def _section_picture(run: Run, column: int, words: str) -> style.Picture:
-    hertz, frictions, said = run.problem.hertz, run.problem.scene.load.friction, []
+    hertz, frictions, said = run.problem.hertz, run.frictions, []
     abreast, top = names_above(style.COLUMN, MOST_NAMES)
     depths = [run.window.z[-1] / hertz.half_width]
     if run.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:

@@ -123,7 +123,7 @@ def _order(known: Convergence) -> str:
 
 def row_name(run: Run, name: str, friction: float) -> str:
     """A quantity and its friction; what does not depend on that is empty but at the first."""
-    frictions = run.problem.scene.load.friction
+    frictions = run.frictions
     if not COMPARED[name].needs_stress:
         return label(name) if friction == frictions[0] else ""
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
