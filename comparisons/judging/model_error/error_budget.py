@@ -151,9 +151,8 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     spent = effects.spent()
     if spent + seconds <= problem.time:
         return finite
-    time, most = spent + seconds, min(effects.most_levels, len(effects.own_levels))
-    finer = effects.finer(budget.levels)
-    for _ in range(budget.levels, most):
+    time, finer = spent + seconds, effects.finer(budget.levels)
+    for _ in range(budget.levels, effects.most_levels):
         if spent + finer <= time:  # the time allows this level at small strains, too
             spent, time, finer = spent + finer, time + finer, GROWTH_OF_TIME * finer
     more = with_unit(seconds, "s", 2)

@@ -78,10 +78,9 @@ class EffectRefinement:
         """Of a scene that is solved by the half-plane, perhaps by its own finite elements, too;
         `rows` are the judged comparison of both."""
         self.scene, self.problem, self.tasks, self.rows = scene, scene.problem, tasks, tuple(rows)
-        # by variant and number of the level from 1: by friction, or why there is no solution
-        self.solved: dict[
-            tuple[Model, int], dict[float, QuantitiesOfInterest] | NotComputedError
-        ] = {}
+        # by variant and number of the level from 1: by friction; why there is no solution
+        self.solved: dict[tuple[Model, int], dict[float, QuantitiesOfInterest]] = {}
+        self.failed: dict[tuple[Model, int], str] = {}
         # by variant, seconds that it took and the largest memory of its process [bytes]
         self.took: dict[Model, tuple[float, int]] = {}
         # seconds by the laws of cost, by variant and number of the level
@@ -100,25 +99,15 @@ class EffectRefinement:
         self.wholes = dict.fromkeys(variant for split in self.splits for variant in split.wholes)
         # by friction, the finest level of those with every effect
         self.finest: dict[Model, dict[float, Level]] = {s.whole: {} for s in self.splits}
-        failed = self.failed
-        for key in [k for k in self.solved if k[0] in self.finest and k not in failed]:
+        for key in [key for key in self.solved if key[0] in self.finest]:
             del self.solved[key]
 
     @property
-    def own_levels(self) -> tuple[Level, ...]:
-        """The scene's own finite elements, of the first case."""
-        return self.scene.runs["finite_element"].levels
-
-    @property
     def most_levels(self) -> int:
-        """That the effects may be taken to."""
+        """That the effects may be taken to: no more than those of the scene's own models."""
         most = None if self.problem.levels is None else self.problem.levels.effects
-        return min(MOST_LEVELS, most or MOST_LEVELS)
-
-    @property
-    def failed(self) -> dict[tuple[Model, int], NotComputedError]:
-        """Those that have no solution."""
-        return {k: found for k, found in self.solved.items() if isinstance(found, NotComputedError)}
+        own = len(self.scene.runs["half_plane"].levels)
+        return min(MOST_LEVELS, most or MOST_LEVELS, own)
 
     def announce_all(
         self, splitting: int, levels: int = LEAST_LEVELS, further: int = LATER
@@ -149,14 +138,15 @@ class EffectRefinement:
         """Solve the variants that are new on a level."""
         for variant, key in self.announce(asked, number).items():
             try:
-                found = self._noted(variant, number, self.tasks.result(key))
+                levels = self.tasks.result(key)
+                self.solved[variant, number] = self._noted(variant, number, levels)
             except NO_SOLUTION as error:
-                found = NotComputedError(" ".join(str(error).split()))
-            self.solved[variant, number] = found
+                self.failed[variant, number] = " ".join(str(error).split())
 
     def is_open(self, variant: Model, number: int) -> bool:
         """Whether a level of a variant is yet to be solved."""
-        return variant not in self.own and (variant, number) not in self.solved
+        key = variant, number
+        return variant not in self.own and key not in self.solved and key not in self.failed
 
     def solution(self, variant: Model | None, number: int, case: Case) -> QuantitiesOfInterest:
         """Of a solved variant on a level, None for the scene's own finite elements."""
@@ -172,7 +162,8 @@ class EffectRefinement:
         """Seconds, by the laws of cost, of the levels of the scene's finite elements and of all
         variants, of these `below` a number."""
         spent = [cost for (_, number), cost in self.expected.items() if number < below]
-        return math.fsum([*spent, *(level.expected_seconds for level in self.own_levels)])
+        own = (level.expected_seconds for level in self.scene.runs["finite_element"].levels)
+        return math.fsum([*spent, *own])
 
     def finer(self, number: int) -> float:
         """Seconds that the level of the wholes after this one takes at most."""
@@ -182,9 +173,8 @@ class EffectRefinement:
     def budget(self, most: int = MOST_LEVELS) -> ErrorBudget:
         """The model errors by so many levels at most; wholes are solved before what splits them.
         Raises NotComputedError where a whole has no solution on the least levels."""
-        most = min(most, self.most_levels, len(self.own_levels))
         self.announce_all(LAST)
-        levels, left_out = self._solve_wholes(most)
+        levels, left_out = self._solve_wholes(min(most, self.most_levels))
         for number in range(1, min(levels, LEAST_LEVELS) + 1):
             self.prepare(self.every, number)
         solutions = self._solutions(levels)
@@ -223,35 +213,35 @@ class EffectRefinement:
 
     def _solve_whole(self, number: int) -> None:
         self.prepare(self.wholes, number)
-        for error in (self.failed.get((variant, number)) for variant in self.wholes):
-            if error is not None:
-                raise error
+        for variant in self.wholes:
+            if (why := self.failed.get((variant, number))) is not None:
+                raise NotComputedError(why)
 
     def _solve_checks(self) -> None:
         """On the coarsest level; where one of the laws has no solution, none is taken."""
         for split in self.splits:
             self.prepare(split.checks, 1)
-        laws, failed = (law for split in self.splits for law in split.laws.items()), self.failed
-        whys = [f"as {probe}: {why}" for (_, probe), v in laws if (why := failed.get((v, 1)))]
+        laws = [law for split in self.splits for law in split.laws.items()]
+        whys = [f"as {probe}: {why}" for (_, probe), v in laws if (why := self.failed.get((v, 1)))]
         if whys and self.selection.laws:
             self.selection = self.selection.without(frozenset({LAW}), whys[0])
 
     def _solutions(self, levels: int) -> list[Solutions]:
         """Of each case, what is solved so far on so many levels. The split is on those on which no
         variant is open."""
-        taken, failed = [], self.failed
+        taken = []
         for case, split in zip(self.scene.cases, self.splits, strict=True):
             history, unsplit, levels_split = [], None, 0
             for number in range(1, levels + 1):
                 tried = [v for v in (*split.all, *split.checks) if not self.is_open(v, number)]
-                found = [v for v in tried if (v, number) not in failed]
+                found = [v for v in tried if (v, number) not in self.failed]
                 history.append(
                     {v: self.solution(v, number, case) for v in (split.of_scene, *found)}
                 )
                 if levels_split == number - 1 and set(split.all) <= set(tried):
                     levels_split = number
                     if split.nothing not in found:
-                        unsplit = unsplit or str(failed[split.nothing, number])
+                        unsplit = unsplit or self.failed[split.nothing, number]
             how = {"levels_split": 0 if unsplit else levels_split, "unsplit": unsplit}
             taken.append(Solutions(case, split, self.selection.laws, tuple(history), **how))
         return taken

@@ -71,7 +71,7 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     with the bodies of one level."""
     selection = effects_of_run(solved, tasks)
     effects = EffectRefinement(solved, tasks, selection)
-    most = min(effects.most_levels, len(solved.runs["half_plane"].levels))
+    most = effects.most_levels
     if FLOW in selection.added:
         most = min(most, LEAST_LEVELS)  # further ones take long, and will hardly be wanted
     effects.announce_all(LAST, most, PERHAPS)

@@ -71,7 +71,7 @@ def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made):
         bodies.prepare([disc], 1)
     bodies.prepare([disc, circle], 1)  # is not tried again
     assert bodies.solution(circle, 1, bodies.scene.cases[0])
-    assert [(key, str(why)) for key, why in bodies.failed.items()] == [((disc, 1), "no mesh")]
+    assert bodies.failed == {(disc, 1): "no mesh"}
 
 
 def test_of_a_whole_without_a_solution_nothing_is_known(made):
