@@ -263,7 +263,8 @@ Axis = dict[str, object]  # of map.json: group, symbol, label, logarithmic, valu
 FIGURES = 6  # significant, of the values: the same on every machine
 SPANS_DECADES = 3.0  # largest over smallest value from which an axis is logarithmic
 FEWEST, MOST = 2, 200  # values of an axis
-_AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([\w.+-]+)\s*:\s*([\w.+-]+)\s*)?", re.ASCII)
+_NUMBER = r"(\d*\.?\d+(?:[eE][+-]?\d+)?)"
+_AXIS = re.compile(rf"\s*([\w-]+)\s*(?:=\s*{_NUMBER}\s*:\s*{_NUMBER}\s*)?", re.ASCII)
 _POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*", re.ASCII)
 
 
@@ -282,17 +283,12 @@ def axis_of(text: str, count: int, option: str) -> Axis:
         )
     low, high = GROUPS[name].span
     if parts[2]:
-        try:
-            low, high = float(parts[2]), float(parts[3])
-        except ValueError:
-            low = high = np.nan
-        if not (0.0 <= low < high < np.inf):
+        low, high = float(parts[2]), float(parts[3])
+        if not low < high or (low == 0.0 and name != "poissons_ratio"):
             raise InputError(
-                f"{option}: the range is {parts[2]}:{parts[3]}; allowed are two numbers, "
-                "from 0 on, the smaller one first"
+                f"{option}: the range is {parts[2]}:{parts[3]}; allowed are two numbers above 0, "
+                "the smaller one first"
             )
-        if low == 0.0 and name != "poissons_ratio":
-            raise InputError(f"{option}: {name} begins at 0; allowed is above 0")
     logarithmic = low > 0.0 and high / low >= SPANS_DECADES
     values = (np.geomspace if logarithmic else np.linspace)(low, high, count)
     return {

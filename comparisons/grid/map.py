@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import percent_as_written
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
+from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, versions
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.groups import (
     Axis,
@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.text import Text
 
-MAP, PICTURE = "map.json", "map.svg"
 SCHEMA = 2
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
@@ -199,7 +198,7 @@ def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -
 class Map(Grid):
     """Where the half-plane holds."""
 
-    FILES = MAP, PICTURE
+    FILES = "map.json", "map.svg"
 
     mark: Mark | None = None
 
@@ -216,9 +215,6 @@ class Map(Grid):
 
     def pictures(self) -> "dict[str, Callable[[], Figure]]":
         return {"map": partial(map_figure, self.content, self.mark)}
-
-    def texts(self) -> dict[str, str]:
-        return {MAP: as_json(self.content)}
 
     def tables(self) -> "Text":
         """How many points are within each tolerance, and of which kind."""

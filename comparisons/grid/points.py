@@ -22,7 +22,7 @@ from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import is_whole
 from comparisons.common.processes import ProcessWorker, cores
 from comparisons.common.progress import ProgressCallback, Step
-from comparisons.common.provenance import key_of, program_code, versions
+from comparisons.common.provenance import as_json, key_of, program_code, versions
 from comparisons.common.tasks import ProcessEnded, Tasks, called
 from comparisons.drawing.style import NamedPictures, svgs
 from comparisons.output.terminal import Printed
@@ -130,9 +130,9 @@ class Grid(Printed):
     def pictures(self) -> "dict[str, Callable[[], Figure]]":
         """What draws each picture, by name."""
 
-    @abstractmethod
     def texts(self) -> dict[str, str]:
         """Contents of the other files, by name."""
+        return {self.FILES[0]: as_json(self.content)}
 
     @property
     def plot(self) -> NamedPictures:

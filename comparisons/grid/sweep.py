@@ -21,7 +21,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text
 from comparisons.common.numbers import is_whole
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, as_json, versions
+from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.grid.points import (
     SCENE,
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Group
 
-SWEEP, TABLE = "sweep.json", "sweep.csv"
+TABLE = "sweep.csv"
 SCHEMA = 2
 MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N, position=N or profile.file=FOLDER"
@@ -281,7 +281,7 @@ def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
 class Sweep(Grid):
     """Scenes at many values of their fields."""
 
-    FILES = SWEEP, TABLE, "sweep.svg", f"{quiescent_zone.NAME}.svg"
+    FILES = "sweep.json", TABLE, "sweep.svg", f"{quiescent_zone.NAME}.svg"
 
     @property
     def figures(self) -> Records:
@@ -302,7 +302,7 @@ class Sweep(Grid):
     def texts(self) -> dict[str, str]:
         columns = dict.fromkeys((*(axis["field"] for axis in self.content["over"]), *COLUMNS))
         rows = ([harmless(row[name]) for name in columns] for row in self.figures.rows)
-        return {SWEEP: as_json(self.content), TABLE: csv_text([columns, *rows])}
+        return super().texts() | {TABLE: csv_text([columns, *rows])}
 
     def tables(self) -> "Group":
         """The points, the scatter over all of them, and how many failed, by why."""

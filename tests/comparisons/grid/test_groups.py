@@ -132,8 +132,8 @@ class TestAxes:
         [
             ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
             ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
-            ("rms_slope=a:b", "--x: the range is a:b"),
-            ("rms_slope=0:1", "--x: rms_slope begins at 0"),
+            ("rms_slope=a:b", "--x: is 'rms_slope=a:b'; allowed is GROUP"),
+            ("rms_slope=0:1", "--x: the range is 0:1; allowed are two numbers above 0"),
             ("rms_slope=1", "--x: is 'rms_slope=1'"),
         ],
     )

@@ -14,7 +14,7 @@ from comparisons.common.cache import NO_CACHE, Cache
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, called
-from comparisons.grid.map import MAP, PICTURE, make_map, request_of
+from comparisons.grid.map import Map, make_map, request_of
 from comparisons.grid.points import failed
 
 SCENE = """
@@ -27,6 +27,7 @@ resolution = {pitch = "20 um"}
 """
 ASKED = ("--points", "2x2", "--x", "a_over_thickness=1:2", "--y", "poissons_ratio=0.2:0.3")
 FOLDER = "map_points"
+MAP, PICTURE = Map.FILES
 COMMAND = (sys.executable, "-m", "comparisons.cli", "map")
 
 
