@@ -15,7 +15,6 @@ from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.processes import ProcessWorker
 from comparisons.common.tasks import Tasks, called
 from comparisons.grid.map import Map, make_map, request_of
-from comparisons.grid.points import failed
 
 SCENE = """
 title = "Small"
@@ -103,33 +102,6 @@ def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
 def test_a_worker_loads_what_solves_and_nothing_that_shows(made):
     shows = {"matplotlib", "rich", "typer", "pyvista", "vtkmodules", "jinja2", "gmsh"}
     assert "dolfinx" in made[1] and not shows & set(made[1])
-
-
-def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
-    request = request_of(str(scene), "2x2", "a_over_width=0.3:3", "poissons_ratio=0.2:0.3")
-
-    def solve(point):
-        return failed(f"no {point.at['poissons_ratio']}", is_wrong=True)
-
-    monkeypatch.setattr("comparisons.grid.map.solve_point", solve)
-    monkeypatch.setattr(
-        "comparisons.grid.points.tasks_by", lambda _, kept: nullcontext(Tasks(kept=kept))
-    )
-    made = make_map(request, tmp_path / "out")
-    points = made.content["points"]
-    whys = [point["why"] for point in points]
-    assert whys == ["no 0.2", "no 0.2", "no 0.3", "no 0.3"]
-    assert made.exit_status == ExitStatus.DONE
-    points[0]["wrong"] = False
-    assert made.exit_status == ExitStatus.NOT_CONVERGED
-    assert "failed, 2: " in repr(made)
-
-
-def test_a_map_with_a_value_that_no_scene_has_solves_and_writes_nothing(scene, tmp_path, complaint):
-    asked = ["--x", "poissons_ratio=0.2:0.6", "--y", "a_over_thickness", "--points", "3x2"]
-    said = complaint("map", scene, *asked, "--out", tmp_path / "out")
-    assert said.endswith("(at poissons_ratio = 0.6)")
-    assert "body.poissons_ratio: is 0.6; allowed is" in said
 
 
 def test_without_a_folder_it_is_named_after_the_scene(scene, monkeypatch, capsys):

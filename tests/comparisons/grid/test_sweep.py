@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ import comparisons as crosscheck
 from comparisons.api import scene_of
 from comparisons.cli import main
 from comparisons.common.errors import InputError, SolverError
-from comparisons.common.tasks import Tasks
 from comparisons.drawing import style
 from comparisons.grid.sweep import MARGIN, Sweep, sweep_request
 from comparisons.grid.sweep_picture import sweep_figure, zone_map_figure
@@ -225,17 +223,23 @@ def test_a_wrong_value_after_a_right_one_solves_and_writes_nothing(
     assert said in line and over.rpartition(",")[2] in line
 
 
-def test_points_that_fail_are_told_with_the_status_of_solvers(made, tmp_path, capsys, monkeypatch):
+@pytest.mark.parametrize(
+    ("error", "status"), [(SolverError("no luck"), 3), (InputError("no luck"), 0)]
+)
+def test_points_that_fail_are_told_with_the_status_of_solvers(
+    made, tmp_path, capsys, monkeypatch, error, status
+):
+    """What is no scene there is no failure of theirs."""
+
     def solved(point):
         if point.at["roller.radius"] == 8e-3:
-            raise SolverError("no luck")
+            raise error
         return {"status": "solved", "rows": ()}
 
-    tasks = "comparisons.grid.points.tasks_by"
-    monkeypatch.setattr(tasks, lambda _, kept: nullcontext(Tasks(kept=kept)))
-    monkeypatch.setattr(Sweep, "pictures", lambda _: {})
     monkeypatch.setattr("comparisons.grid.sweep.solved", solved)
-    assert main([*made[1][:3], str(tmp_path / "out"), *made[1][4:]]) == 3
+    monkeypatch.setattr(Sweep, "pictures", lambda _: {})
+    asked = [*made[1][:3], str(tmp_path / "out"), *made[1][4:], "--workers", "1"]
+    assert main(asked) == status
     assert "2 failed\nfailed, 2: no luck" in capsys.readouterr().out
 
 
