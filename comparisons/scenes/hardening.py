@@ -39,9 +39,7 @@ class HardeningSection(SceneSection):
     )
     voce: VoceSection | None = optional("S − (S − Y) exp(−rate k)")
     ludwik: LudwikSection | None = optional("Y + strength k^exponent")
-    kinematic: Pressure | None = optional(
-        "the yield surface moves by so much stress per plastic strain"
-    )
+    kinematic: Pressure | None = optional("shift of the yield surface: stress per plastic strain")
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if not self.laws:

@@ -67,15 +67,13 @@ class ProfileSection(SceneSection):
         "lost heights and gaps in x: an error (by default), or put on straight lines"
     )
     kind: Literal["sinusoid", "self-affine", "ground", "turned"] | None = optional(
-        "of a computed surface"
+        "computed surface"
     )
     wavelength: Length | None = optional("of a sinusoid")
     amplitude: Length | None = optional("half of its height from valley to crest; a crest at x = 0")
     samples_per_wavelength: Samples | None = optional("of a sinusoid; 64 by default")
     hurst: Share | None = optional("Hurst exponent of a self-affine surface")
-    rms_slope: Ratio | None = optional(
-        "root mean square of the slope over the whole trace; or `rms_height`"
-    )
+    rms_slope: Ratio | None = optional("root mean square of the slope; or `rms_height`")
     rms_height: Length | None = optional("root mean square of the heights")
     samples: Samples | None = optional("of the trace")
     length: Length | None = optional(
@@ -85,34 +83,24 @@ class ProfileSection(SceneSection):
     seed: Seed | None = optional("of the random numbers; 0 by default")
     shortest_wavelength: Length | None = optional("by default 4 samples of a self-affine surface")
     roll_off_wavelength: Length | None = optional(
-        "of a ground surface: longer waves are equally high, shorter ones lower"
+        "longer waves are equally high, shorter ones lower"
     )
     longest_wavelength: Length | None = optional("by default the length of a self-affine surface")
-    decay: Ratio | None = optional(
-        "of a ground surface: amplitudes fall as k^−decay; 1.25 by default"
-    )
-    one_sidedness: Ratio | None = optional(
-        "of a ground surface: skewness about −3 times this; 0.3 by default"
-    )
+    decay: Ratio | None = optional("of a ground surface: amplitudes as k^−decay; 1.25 by default")
+    one_sidedness: Ratio | None = optional("skewness is about −3 times this; 0.3 by default")
     feed: Length | None = optional("of a turned surface, per revolution; at most the nose radius")
     nose_radius: Length | None = optional("of the tool")
     ridge_radius: Length | None = optional("of its ridges; by default a tenth of the nose radius")
     phase: Phase | None = optional("of the ridge at x = 0, in feeds; 0 by default")
     samples_per_feed: Samples | None = optional("as many as the ridges ask for by default")
-    noise: Length | None = optional(
-        "root mean square of what is added to a turned surface; none by default"
-    )
-    noise_wavelength: Length | None = optional(
-        "shortest of the noise; by default a tenth of the feed"
-    )
+    noise: Length | None = optional("root mean square, added to a turned surface; none by default")
+    noise_wavelength: Length | None = optional("its shortest wave; by default a tenth of the feed")
     cutoff: Length | Literal[AUTOMATIC] | None = optional(
         "longer waves are taken off (Gaussian filter, ISO 16610-21); `auto`: as the "
         "standard chooses"
     )
     short_cutoff: Length | None = optional("shorter waves are taken off")
-    periodic: StrictBool | None = optional(
-        "the trace is one period of an endless surface under a flat body"
-    )
+    periodic: StrictBool | None = optional("one period of an endless surface under a flat body")
 
     @property
     def variety(self) -> str:

@@ -29,15 +29,11 @@ class RunningInSection(SceneSection):
     with the pressure capped, and what flows is taken off."""
 
     hardness: Pressure | None = optional("pressure at which asperities flow; by default the body's")
-    load: Annotated[float, Number(LOAD, gt=0.0)] | None = optional(
-        "during running-in; by default the scene's"
-    )
+    load: Annotated[float, Number(LOAD, gt=0.0)] | None = optional("by default the scene's")
     positions: Positions | None = optional("positions on the trace one by one")
     stroke: Length | None = optional("range of the roller about its position; or `positions`")
     passes: Passes | None = optional("positions along the stroke; 15 by default")
-    sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = optional(
-        "over all positions, at most", 10
-    )
+    sweeps: Annotated[StrictInt, Field(ge=1, le=MOST_PASSES)] = optional("over all, at most", 10)
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(("positions", "stroke"))

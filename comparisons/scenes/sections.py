@@ -330,9 +330,7 @@ class StressSection(SceneSection):
         "to both sides of the roller's centre, 1.5 half-widths by default; about the "
         "contact where that lies beyond"
     )
-    points: tuple[Points, Points] = optional(
-        "along x and along z, at most 50 million in all", (600, 200)
-    )
+    points: tuple[Points, Points] = optional("along x and z, at most 50 million in all", (600, 200))
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if (count := self.points[0] * self.points[1]) > MOST_STRESS_POINTS:

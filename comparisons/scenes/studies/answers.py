@@ -64,9 +64,7 @@ class AnswerSection(SceneSection):
         'as `"-CONTACT.4"`, that holds the traction on the body towards +x, after a minus its '
         "opposite; by default the stress on a mesh's top"
     )
-    units: UnitsSection | None = optional(
-        "of the file; by default those that a table's columns name, else SI"
-    )
+    units: UnitsSection | None = optional("of the file; by default as its columns say, else SI")
     up: Literal["y", "-y", "z", "-z"] | None = optional(
         "axis of the file out of the rough body, with its sign; found by default: the "
         "body reaches far to one side"

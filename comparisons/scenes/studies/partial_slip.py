@@ -15,9 +15,7 @@ class PartialSlipSection(SceneSection):
     """Tangential load that does not make the contact slide, at small strains; it needs
     `load.friction` above 0."""
 
-    load: Fraction | None = optional(
-        "tangential load on the body towards +x, over friction times normal load; or `loads`"
-    )
+    load: Fraction | None = optional("tangential, over friction times normal load; or `loads`")
     loads: Annotated[tuple[Share, ...], Several(repeated=True)] | None = optional(
         "several, one after the other; 0 alone presses unlike bodies, which friction holds"
     )

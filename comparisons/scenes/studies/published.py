@@ -29,12 +29,8 @@ class PublishedSection(SceneSection):
         "against its base, by the finite elements; `held_lowering` and `held_pressure` that and "
         "the largest pressure at the end of `[partial_slip]`"
     )
-    value: Text = Field(
-        description="the figure: a number and its unit, as printed", examples=["3585.4 MPa"]
-    )
-    scatter: Fraction | None = optional(
-        "of what is published, relative; by default half a unit of the last digit"
-    )
+    value: Text = Field(description="the figure with its unit, as printed", examples=["3585.4 MPa"])
+    scatter: Fraction | None = optional("relative; by default half a unit of the last digit")
     model: Literal[tuple(HYPHENATED.values())] | None = optional(
         "which of ours is judged by it; by default the last that is run"
     )

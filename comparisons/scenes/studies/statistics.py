@@ -21,9 +21,7 @@ class StatisticsSection(SceneSection):
     cutoffs: Annotated[tuple[Length, ...], Several()] | None = optional(
         "filters under which summits are counted; chosen by default"
     )
-    metal: Literal[METALS] = optional(
-        "of the body: h/R up to which an asperity is elastic", METALS[0]
-    )
+    metal: Literal[METALS] = optional("of the body, for the h/R of elastic asperities", METALS[0])
     lubricated: StrictBool = optional("whether it is: h/R from which an asperity cuts", False)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
