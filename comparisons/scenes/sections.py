@@ -48,65 +48,6 @@ Points = Annotated[StrictInt, Field(ge=3, le=MOST_STRESS_LINES)]
 OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_stress]
 
 
-class SolidSection(SceneSection):
-    """A section that may name a solid, which a file calls its `material`."""
-
-    FOLLOW = tuple(ELASTIC)
-    solid: Annotated[str, SolidName()] | None = optional(
-        "a solid of `crosscheck materials`: gives its moduli, its measured law and, "
-        "with `[heat]`, thermal constants; fields beside it win",
-        alias="material",
-    )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _follow_solid(cls, table: object) -> object:
-        name = table.get("material") if isinstance(table, Mapping) else None
-        solid = solid_named(name) if isinstance(name, str) else None
-        if solid is None or table.get("rigid") is True:
-            return table
-        moduli = {field: solid.values[field].value for field in ELASTIC if field in solid.values}
-        follows = {**moduli, **table}
-        if "law" in cls.model_fields and solid.law is not None:
-            follows |= _law_of(solid, follows)
-        return follows
-
-    @property
-    def departures(self) -> list[str]:
-        """The moduli that are not those of the solid it is named after."""
-        if self.solid is None:
-            return []
-        solid = solids()[self.solid]
-        return [
-            field
-            for field in ELASTIC
-            if field in solid.values and not solid.agrees(field, getattr(self, field))
-        ]
-
-
-def _law_of(solid: Solid, table: Mapping) -> dict[str, object]:
-    """The law that a table leaves out and that follows from its solid: constants were measured at
-    the solid's own moduli, and belong to no others."""
-    law, constants = table.get("law"), solid.law.murnaghan
-    if constants is None:
-        return {} if law or "murnaghan" in table else {"law": solid.law.name}
-    if law not in (None, solid.law.name):
-        return {}
-    if "murnaghan" in table:
-        return {"law": solid.law.name}
-    if not all(solid.agrees(field, _in_si(table[field], ELASTIC[field])) for field in ELASTIC):
-        return {}
-    return {"law": solid.law.name, "murnaghan": dict(zip("lmn", constants, strict=True))}
-
-
-def _in_si(value: object, dimension: Dimension) -> float | None:
-    """None for what is no such quantity, which its field then refuses."""
-    try:
-        return to_si(value, dimension)
-    except UnitError:
-        return None
-
-
 class MurnaghanSection(SceneSection):
     """Constants of Murnaghan's law."""
 
@@ -119,20 +60,52 @@ class MurnaghanSection(SceneSection):
         return self.l, self.m, self.n
 
 
-class ElasticSection(SolidSection):
-    """A body and its law of elasticity at finite strains, neo-Hookean by default, or LINEAR."""
+class ElasticSection(SceneSection):
+    """A body, which may be named after a solid, and its law of elasticity at finite strains: that
+    of the solid, else neo-Hookean, or LINEAR."""
 
+    FOLLOW = tuple(ELASTIC)
+    solid: Annotated[str, SolidName()] | None = optional(
+        "a solid of `crosscheck materials`: gives its moduli, its measured law and, "
+        "with `[heat]`, thermal constants; fields beside it win",
+        alias="material",
+    )
     law: Literal[(LINEAR, *LAWS)] | None = optional(
         "of elasticity at finite strains; of the material, else a range of published "
         'solids; `"linear"`, of every elastic body: nothing deforms finitely'
     )
     murnaghan: MurnaghanSection | None = optional("third-order constants, with that law")
 
+    @model_validator(mode="before")
+    @classmethod
+    def _follow_solid(cls, table: object) -> object:
+        name = table.get("material") if isinstance(table, Mapping) else None
+        solid = solid_named(name) if isinstance(name, str) else None
+        if solid is None or table.get("rigid") is True:
+            return table
+        moduli = {field: solid.values[field].value for field in ELASTIC if field in solid.values}
+        follows = {**moduli, **table}
+        if solid.law is not None:
+            follows |= _law_of(solid, follows)
+        return follows
+
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.law == "murnaghan" and self.murnaghan is None:
             yield "murnaghan", "is missing"
         if self.law != "murnaghan" and self.murnaghan is not None:
             yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
+
+    @property
+    def departures(self) -> list[str]:
+        """The moduli that are not those of the solid it is named after."""
+        if self.solid is None:
+            return []
+        solid = solids()[self.solid]
+        return [
+            field
+            for field in ELASTIC
+            if field in solid.values and not solid.agrees(field, getattr(self, field))
+        ]
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -157,6 +130,29 @@ class ElasticSection(SolidSection):
             constants = self.murnaghan and self.murnaghan.constants
             law = Law(self.law, constants, measured and measured.standard_errors)
         return Material(self.youngs_modulus, self.poissons_ratio, law)
+
+
+def _law_of(solid: Solid, table: Mapping) -> dict[str, object]:
+    """The law that a table leaves out and that follows from its solid: constants were measured at
+    the solid's own moduli, and belong to no others."""
+    law, constants = table.get("law"), solid.law.murnaghan
+    if constants is None:
+        return {} if law or "murnaghan" in table else {"law": solid.law.name}
+    if law not in (None, solid.law.name):
+        return {}
+    if "murnaghan" in table:
+        return {"law": solid.law.name}
+    if not all(solid.agrees(field, _in_si(table[field], ELASTIC[field])) for field in ELASTIC):
+        return {}
+    return {"law": solid.law.name, "murnaghan": dict(zip("lmn", constants, strict=True))}
+
+
+def _in_si(value: object, dimension: Dimension) -> float | None:
+    """None for what is no such quantity, which its field then refuses."""
+    try:
+        return to_si(value, dimension)
+    except UnitError:
+        return None
 
 
 class HubSection(SceneSection):
@@ -283,12 +279,7 @@ class LoadSection(SceneSection):
     )
     coupled: StrictBool = optional("sliding traction moves the surfaces in both models", False)
 
-    KINDS: ClassVar[tuple[str, ...]] = (
-        "per_length",
-        "hertz_peak_pressure",
-        "approach",
-        "mean_pressure",
-    )
+    KINDS: ClassVar = ("per_length", "hertz_peak_pressure", "approach", "mean_pressure")
 
     @property
     def kind(self) -> str:
