@@ -1,12 +1,9 @@
 """A picture or a table that fails costs itself alone: no figure, and nothing else of the page."""
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
 
 import pytest
-from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
@@ -18,13 +15,6 @@ RUN = ["run", "smooth", "--models", "half-plane", "--out", "out"]
 FILES = {"half_plane", "result.json", "run.npz"}
 # of the figures alone, without time and place
 FIGURES = re.compile(r'"figures": .*?"series"', re.DOTALL)
-KILLED = f"""
-import os, signal, sys
-from comparisons.cli import main
-from comparisons.output.page import page
-page.render = lambda run: os.kill(os.getpid(), signal.SIGKILL)
-main({RUN})
-"""
 
 
 def fails(*_: object, **__: object) -> None:
@@ -81,16 +71,6 @@ def test_a_page_that_fails_costs_no_more_than_the_page(tmp_path, monkeypatch, ca
     monkeypatch.setattr(page, "rendered", fails)
     assert main(RUN) == ExitStatus.DEFECT
     assert "in fails\n" in capsys.readouterr().err
-
-
-def test_results_are_whole_where_the_drawing_is_killed(tmp_path):
-    command = [sys.executable, "-c", KILLED]
-    done = subprocess.run(command, env={"PYTHONPATH": str(PROJECT)}, capture_output=True)
-    assert done.returncode == -9
-    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
-    assert main(RUN) == 0
-    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES | {"report.html"}
-    assert {path.name for path in tmp_path.iterdir()} == {"out"}
 
 
 def test_pictures_of_campaigns_are_left_out(monkeypatch, capsys):
