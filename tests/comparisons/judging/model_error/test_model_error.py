@@ -205,7 +205,8 @@ def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(t
     solve, solved = level.finite_element_level, []
 
     def counted(problem, *arguments, **others):
-        solved.append(problem.scene.finite_element)
+        if problem.scene.finite_element.element == "P2":  # others are shown for what they cost
+            solved.append(problem)
         if len(solved) == stop:
             raise KeyboardInterrupt
         return solve(problem, *arguments, **others)
