@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from comparisons.common.errors import InputError
+from comparisons.common.provenance import as_json
 
 OWN_FOLDERS = ("half_plane", "finite_element", "whole")
 REPORT, PDF = "report.html", "report.pdf"
@@ -46,6 +47,13 @@ def claimed(out: Path, files: tuple[str, ...] = OWN_FILES) -> set[str]:
 def holds_comparison(out: Path) -> bool:
     """Whether a folder has a finished run of both models."""
     return {f"{model}/contact.csv" for model in OWN_FOLDERS[:2]} <= claimed(out)
+
+
+def claim(out: Path, name: str) -> None:
+    """Note in a run's record that this program wrote a file more."""
+    content = json.loads((out / OWN_FILES[0]).read_bytes())
+    content["record"]["files"] = sorted({*content["record"]["files"], name})
+    write_whole(out / OWN_FILES[0], as_json(content))
 
 
 def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.common.errors import one_line
-from comparisons.common.files import PDF, REPORT, published, write_whole
+from comparisons.common.files import REPORT, published, write_whole
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
@@ -48,7 +48,7 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
         for key in (first, FILE):
             tasks.result(key)
         files = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
-        record = found.record | {"files": sorted([*files, RESULT, REPORT, PDF])}
+        record = found.record | {"files": sorted([*files, RESULT, REPORT])}
         write_result(replace(found, record=record), folder)
     callback("drawing the report")
     page = attempted("report", partial(_page, outcome))

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from comparisons.common.files import PDF, REPORT, write_whole
+from comparisons.common.files import PDF, REPORT, check_writable, claim, write_whole
 
 BROWSERS = (
     *("chromium", "chromium-browser", "chromium-headless-shell", "chrome-headless-shell"),
@@ -38,8 +38,12 @@ def options(profile: str) -> list[str]:
 
 
 def print_report(folder: Path) -> str:
-    """Print a run's report.html into report.pdf beside it; why that could not be, if so."""
-    return print_pdf(folder / REPORT, folder / PDF)
+    """Print a run's report.html into report.pdf beside it; why that could not be, if so. Raises
+    InputError where somebody else wrote a report.pdf there."""
+    check_writable(folder)
+    if not (why_not := print_pdf(folder / REPORT, folder / PDF)):
+        claim(folder, PDF)
+    return why_not
 
 
 def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> str:

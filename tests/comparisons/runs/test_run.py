@@ -133,7 +133,7 @@ class TestSmooth:
         out = smooth.directory
         read, content = read_result(out), result_of(smooth).result
         written = {str(p.relative_to(out)) for p in out.rglob("*") if p.is_file()}
-        assert {*read.record["files"]} == {*written, "report.pdf"}
+        assert {*read.record["files"]} == {*written}
         content["record"] |= {"files": read.record["files"]}
         assert json.loads((out / "result.json").read_text()) == content
         assert read.figures == smooth.figures

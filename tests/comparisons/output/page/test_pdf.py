@@ -32,6 +32,11 @@ def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, caps
     # what is asked for no more would be that of another run
     assert main(arguments) == 0
     assert not (out / "report.pdf").exists()
+    # what somebody else printed there stays
+    (out / "report.pdf").write_text("mine")
+    assert main(arguments) == main(["report", "--pdf", str(out)]) == 2
+    assert (out / "report.pdf").read_text() == "mine"
+    (out / "report.pdf").unlink()
     capsys.readouterr()
     browser.write_text("#!/bin/sh\ncase $1 in --version) exit;; esac; exit 1\n", encoding="utf-8")
     assert main([*arguments, "--pdf"]) == 0

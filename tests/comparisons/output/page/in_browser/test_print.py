@@ -8,7 +8,7 @@ import pytest
 from scenes import STEADY
 
 from comparisons.output.page.page import render
-from comparisons.output.page.pdf import print_pdf, print_report
+from comparisons.output.page.pdf import print_pdf
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0
@@ -69,8 +69,9 @@ def test_nothing_is_wider_than_the_paper(tab, request, name):
 
 
 def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
-    assert print_report(wavy_file.parent) == ""
-    content = wavy_file.with_name("report.pdf").read_bytes()
+    printed = wavy_file.with_name("report.pdf")
+    assert print_pdf(wavy_file, printed) == ""
+    content = printed.read_bytes()
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
     assert 5 <= len(boxes) <= 8
     for box in boxes:
