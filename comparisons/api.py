@@ -221,8 +221,9 @@ def sweep(
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
     asked = [over] if isinstance(over, str) else list(over)
     scenes = [scene_of(one) for one in (scene if isinstance(scene, list | tuple) else [scene])]
-    request = sweep_request(scenes, asked, models_named(models, "models"))
-    if "finite_element" in request.models:
+    chosen = models_named(models, "models")
+    request = sweep_request(scenes, asked, chosen)
+    if "finite_element" in chosen:
         check_finite_elements()
     with _folder(out, "sweep") as folder:
         made = make_sweep(request, folder, workers, progress)

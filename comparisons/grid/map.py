@@ -9,7 +9,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,7 +37,7 @@ from comparisons.grid.map_error import (
 )
 from comparisons.grid.map_picture import Mark, map_figure
 from comparisons.grid.mark import mark_of
-from comparisons.grid.points import FAILED, SOLVED, Grid, Point, points_of, solved_in
+from comparisons.grid.points import FAILED, SOLVED, Grid, Request, points_of, solved_in
 from comparisons.models.problem import Problem
 from comparisons.output.records import Records
 from comparisons.scenes.files import find_scene, name_of, read_toml
@@ -61,45 +61,6 @@ CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/grid/points.py")
 CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_error.py"))
 
 
-@dataclass(frozen=True)
-class MapRequest:
-    """What a map is made of."""
-
-    scene: Scene
-    x: Axis
-    y: Axis
-    quantity: str  # of QUANTITIES, that the map shows
-
-    @property
-    def command(self) -> str:
-        axes = self.x, self.y
-        points = "x".join(str(len(axis["values"])) for axis in axes)
-        x, y = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in axes)
-        asked = f"--points {points} --x {x} --y {y} --quantity {self.quantity}"
-        return f"crosscheck map {self.scene.named} {asked}"
-
-    @property
-    def finite_element(self) -> dict:
-        """[finite_element] of the points, with the assumptions of both groups dropped."""
-        return finite_elements(self.scene, (self.x["group"], self.y["group"]))
-
-    @property
-    def tables(self) -> dict:
-        """Of the scene, SI, without [budget], which limits runs alone; [finite_element] as the
-        scene gives it: what follows there changes with groups."""
-        tables = {name: table for name, table in self.scene.tables.items() if name != "budget"}
-        return tables | {"finite_element": self.scene.written.get("finite_element", {})}
-
-    @cached_property
-    def points(self) -> tuple[Point, ...]:
-        """Row by row: y outside, x inside. Raises SceneError for a value that has no scene."""
-        x, y = self.x["group"], self.y["group"]
-        axes = {y: self.y["values"], x: self.x["values"]}
-        return points_of(
-            axes, lambda at: scene_with(self.scene, {x: at[x], y: at[y]}), self.quantity, CODE
-        )
-
-
 def request_of(
     scene: str,
     points: str = SIZE,
@@ -107,14 +68,14 @@ def request_of(
     y: str | None = None,
     quantity: str = "peak_pressure",
     settings: Sequence[str] = (),
-) -> MapRequest:
+) -> Request:
     """The map that the arguments of `crosscheck map` ask for.
 
     scene     of a finished map, or as for `crosscheck run`
     points    "NxM"
     x, y      "GROUP" or "GROUP=FROM:TO"
     settings  FIELD=VALUE each, beside the scene's file
-    Raises InputError for anything that is wrong with them."""
+    Raises InputError for anything that is wrong with them, SceneError for a value without scene."""
     counts = counts_of(points)
     finished = FINISHED / f"{scene}.toml"
     path = finished if os.path.isfile(finished) else find_scene(scene)  # of any length
@@ -129,11 +90,32 @@ def request_of(
     up = axis_of(usual[1] if y is None else y, counts[1], "--y")
     if across["group"] == up["group"]:
         raise InputError(f"--y: is {up['group']}, as --x; allowed are two groups")
-    return MapRequest(posed, across, up, quantity)
+    return _request(posed, across, up, quantity)
+
+
+def _request(scene: Scene, x: Axis, y: Axis, quantity: str) -> Request:
+    axes = {axis["group"]: axis["values"] for axis in (y, x)}  # row by row
+    # [budget] limits runs alone; what follows in [finite_element] changes with groups
+    tables = {name: table for name, table in scene.tables.items() if name != "budget"}
+    tables["finite_element"] = scene.written.get("finite_element", {})
+    points = "x".join(str(len(axis["values"])) for axis in (x, y))
+    spans = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in (x, y))
+    asked = f"--points {points} --x {next(spans)} --y {next(spans)} --quantity {quantity}"
+    content = {
+        "schema": SCHEMA,
+        "command": f"crosscheck map {scene.named} {asked}",
+        "scene": tables,
+        "finite_element": finite_elements(scene, axes),
+        "quantity": quantity,
+        "x": x,
+        "y": y,
+        "tolerances": list(TOLERANCES),
+    }
+    return Request(content, points_of(axes, partial(scene_with, scene), quantity, CODE))
 
 
 def make_map(
-    request: MapRequest,
+    request: Request,
     out: Path,
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
@@ -144,25 +126,16 @@ def make_map(
     workers  as `tasks_by` takes them
     marked   a scene of the user's on the picture
     Raises InputError for what cannot be mapped or written."""
-    axes = {"x": request.x, "y": request.y}
-    # before anybody waits for the points
-    mark = marked and mark_of({"scene": request.tables, **axes}, marked)
+    asked = request.content
+    mark = marked and mark_of(asked, marked)  # before anybody waits for the points
     answers = solved_in(out, Map.FILES, request.points, solve_point, workers, callback)
     points = [
-        {name: point.at[axis["group"]] for name, axis in axes.items()} | answer
+        {name: point.at[asked[name]["group"]] for name in "xy"}
+        | answer
+        | significance(answer, asked["quantity"])
         for point, answer in zip(request.points, answers, strict=True)
     ]
-    content = {
-        "schema": SCHEMA,
-        "command": request.command,
-        "scene": request.tables,
-        "finite_element": request.finite_element,
-        "quantity": request.quantity,
-        **axes,
-        "tolerances": list(TOLERANCES),
-        "points": [point | significance(point, request.quantity) for point in points],
-        "versions": versions(),
-    }
+    content = asked | {"points": points, "versions": versions()}
     callback("map: picture")
     made = Map(content, out, mark)
     made.write(out)

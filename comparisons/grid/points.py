@@ -53,6 +53,15 @@ class Point:
     key: str  # hash of everything that shapes the answer
 
 
+@dataclass(frozen=True)
+class Request:
+    """A grid that is asked for: the content of its JSON file but for what is found, and the points
+    in their order."""
+
+    content: dict
+    points: tuple[Point, ...]
+
+
 def points_of(
     axes: Mapping[str, Sequence[Value]],
     scene_at: Callable[[Mapping[str, Value]], Scene],

@@ -29,6 +29,7 @@ from comparisons.grid.points import (
     TRACE,
     Grid,
     Point,
+    Request,
     Value,
     failures,
     points_of,
@@ -63,35 +64,12 @@ CODE += tuple(f"comparisons/grid/{name}.py" for name in ("points", "sweep"))
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
 
 
-@dataclass(frozen=True)
-class SweepRequest:
-    """A sweep: every combination of scenes and values, those of the last field inside."""
-
-    scenes: tuple[Scene, ...]
-    models: tuple[str, ...]
-    over: tuple[str, ...]  # FIELD=…, as asked
-    axes: dict[str, tuple[Value, ...]]  # values by "table.field", as TOML would have them
-    points: tuple[Point, ...]
-
-    @property
-    def command(self) -> str:
-        scenes = " ".join(scene.named for scene in self.scenes)
-        options = (word for text in self.over for word in ("--over", text))
-        return f"crosscheck sweep {scenes} {shlex.join(options)}".rstrip()
-
-    @property
-    def title(self) -> str:
-        return self.scenes[0].title if len(self.scenes) == 1 else f"{len(self.scenes)} scenes"
-
-
 def joined_name(scenes: Sequence[Scene]) -> str:
     """That of a scene, or of the first and the last."""
     return "-to-".join(dict.fromkeys(scene.name for scene in (scenes[0], scenes[-1])))
 
 
-def sweep_request(
-    scenes: Sequence[Scene], over: Sequence[str], models: tuple[str, ...]
-) -> SweepRequest:
+def sweep_request(scenes: Sequence[Scene], over: Sequence[str], models: tuple[str, ...]) -> Request:
     """The sweep of scenes that "FIELD=…" ask for.
 
     over     "position=40" placements along the trace, "FIELD=FROM:TO:N", "FIELD=A,B,C", or
@@ -110,9 +88,17 @@ def sweep_request(
         fields = {name: value for name, value in at.items() if name != SCENE}
         return named[at.get(SCENE, next(iter(named)))].changed(fields)
 
-    return SweepRequest(
-        tuple(named.values()), models, tuple(over), axes, points_of(axes, scene_at, models, CODE)
-    )
+    options = (word for text in over for word in ("--over", text))
+    command = "crosscheck", "sweep", *(scene.named for scene in scenes), shlex.join(options)
+    title = scenes[0].title if len(scenes) == 1 else f"{len(scenes)} scenes"
+    content = {
+        "schema": SCHEMA,
+        "command": " ".join(command).rstrip(),
+        "scene": {"name": joined_name(scenes), "title": title},
+        "models": list(models),
+        "over": [{"field": name, "values": list(values)} for name, values in axes.items()],
+    }
+    return Request(content, points_of(axes, scene_at, models, CODE))
 
 
 def _named(scenes: Sequence[Scene]) -> dict[str, Scene]:
@@ -204,7 +190,7 @@ def _placements(count: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
 
 
 def make_sweep(
-    request: SweepRequest,
+    request: Request,
     out: Path,
     workers: int | str | None = None,
     callback: ProgressCallback = no_progress,
@@ -218,7 +204,12 @@ def make_sweep(
     whys = failures(answers)
     if whys.total() == len(answers):
         raise InputError(next(iter(whys)))
-    made = Sweep(sweep_content(request, answers), out)
+    points = [
+        {"values": list(point.at.values()), "rows": (), **answer}
+        for point, answer in zip(request.points, answers, strict=True)
+    ]
+    found = {"points": points, "scatter": scatter(points, FRICTION in request.points[0].at)}
+    made = Sweep(request.content | found | {"versions": versions()}, out)
     made.write(out)
     return made
 
@@ -256,25 +247,6 @@ def solved(point: Point) -> dict:
         entry |= {"bridged": zone.bridged, "asperities": zone.asperities}
         zones.setdefault(zone.model, []).append(entry)
     return answer | ({quiescent_zone.NAME: zones} if zones else {})
-
-
-def sweep_content(request: SweepRequest, answers: list[dict]) -> dict:
-    """sweep.json: points in their order, and the scatter of every figure over all of them."""
-    points = [
-        {"values": list(point.at.values()), "rows": (), **answer}
-        for point, answer in zip(request.points, answers, strict=True)
-    ]
-    fields = request.axes.items()
-    return {
-        "schema": SCHEMA,
-        "command": request.command,
-        "scene": {"name": joined_name(request.scenes), "title": request.title},
-        "models": list(request.models),
-        "over": [{"field": name, "values": list(values)} for name, values in fields],
-        "points": points,
-        "scatter": scatter(points, FRICTION in request.axes),
-        "versions": versions(),
-    }
 
 
 @dataclass(frozen=True, repr=False)

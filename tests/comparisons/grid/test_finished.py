@@ -12,7 +12,7 @@ from comparisons.common.provenance import versions
 from comparisons.drawing.style import svgs
 from comparisons.grid.groups import scene_with
 from comparisons.grid.map import FINISHED, finished_map, finished_names, request_of
-from comparisons.grid.map_error import TOLERANCES, solve_point
+from comparisons.grid.map_error import solve_point
 from comparisons.grid.map_picture import map_figure
 from comparisons.grid.mark import mark_of, problem_named, unlike
 from comparisons.grid.points import FAILED, SOLVED
@@ -54,14 +54,12 @@ def test_each_map_has_its_scene_and_picture():
 def test_the_command_asks_for_the_same_points(finished):
     name, content = finished
     request = asked_for(name)
-    assert request.scene.source == name
-    assert request.tables == content["scene"]
-    assert request.finite_element == content["finite_element"]
+    assert request.content["command"].startswith(f"crosscheck map {name} ")
+    for part in ("scene", "finite_element", "x", "y", "tolerances"):
+        assert request.content[part] == content[part]
     assert [[*p.at.values()] for p in request.points] == [
         [p["y"], p["x"]] for p in content["points"]
     ]
-    assert (content["x"], content["y"]) == (request.x, request.y)
-    assert content["tolerances"] == list(TOLERANCES)
 
 
 def test_every_point_was_computed(finished):

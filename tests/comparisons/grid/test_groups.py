@@ -207,8 +207,8 @@ class TestModelError:
 
 class TestRequest:
     def test_usual_axes_are_what_the_scene_has(self):
-        request = request_of("sinusoid", "2x2")
-        assert (request.x["group"], request.y["group"]) == ("wavelength_over_a", "rms_slope")
+        content = request_of("sinusoid", "2x2").content
+        assert [content[axis]["group"] for axis in "xy"] == ["wavelength_over_a", "rms_slope"]
 
     @pytest.mark.parametrize(
         ("arguments", "what"),
@@ -242,4 +242,4 @@ class TestRequest:
 
     def test_a_map_without_any_point_is_refused(self):
         with pytest.raises(SceneError, match="which takes finite deformation"):
-            _ = request_of("smooth", "2x2", "a_over_radius", "a_over_thickness").points
+            request_of("smooth", "2x2", "a_over_radius", "a_over_thickness")

@@ -41,7 +41,7 @@ def values_of(swept, study, quantity):
 
 def test_placements_keep_the_contact_on_the_trace():
     asked = request(["position=5"])
-    [values] = asked.axes.values()
+    [values] = [axis["values"] for axis in asked.content["over"]]
     problem = problem_of(scene_of(WAVES))
     reach, surface = problem.extent, problem.surface
     start, end = surface.position + surface.profile.x[[0, -1]]
@@ -54,7 +54,7 @@ def test_placements_keep_the_contact_on_the_trace():
 def test_whole_numbers_stay_whole(over):
     asked = request([over])
     assert [point.scene.profile.seed for point in asked.points] == [1, 2]
-    assert [type(seed) for seed in asked.axes["profile.seed"]] == [int, int]
+    assert [type(seed) for seed in asked.content["over"][0]["values"]] == [int, int]
 
 
 def test_another_kind_of_load_takes_the_place_of_the_scenes_own():

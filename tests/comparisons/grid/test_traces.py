@@ -114,7 +114,7 @@ def test_traces_of_a_shipped_scene_lie_in_the_working_folder(scene, monkeypatch)
 
     monkeypatch.chdir(scene.parent)
     request = sweep_request([Scene.read("ground-unrun")], ["profile.file=traces"], ("half_plane",))
-    files = [Path(file) for file in request.axes["profile.file"]]
+    files = [Path(file) for file in request.content["over"][0]["values"]]
     assert files == sorted(path.resolve() for path in Path("traces").iterdir())
 
 
