@@ -26,7 +26,7 @@ from comparisons.campaigns.cases import (
 )
 from comparisons.cli import main
 from comparisons.common import tasks
-from comparisons.common.errors import ExitStatus, SceneError
+from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import no_progress
 from comparisons.figures.figure import Figure
 from comparisons.scenes.files import benchmark_names, scene_names
@@ -163,17 +163,6 @@ def test_the_command_ends_with_what_the_rows_say(tmp_path, monkeypatch, capsys, 
     assert json.loads(shown) == json.loads(written)
 
 
-@pytest.mark.parametrize("command", ["stability", "verify"])
-def test_places_that_cannot_be_written_are_refused_first(tmp_path, capsys, command):
-    (tmp_path / "file").write_text("")
-    assert main([command, "--out", str(tmp_path / "file")]) == ExitStatus.BAD_INPUT
-    assert "is not a folder" in capsys.readouterr().err
-    arguments = ["--out", str(tmp_path / "out"), "--junit", str(tmp_path)]
-    assert main([command, *arguments]) == ExitStatus.BAD_INPUT
-    assert "allowed is a file" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
 def test_each_case_has_a_name_of_its_own_and_both_models_have_many():
     cases = robustness.all_cases()
     names = [(case.model, case.group, case.name) for case in cases]
@@ -256,19 +245,3 @@ def test_scatter_is_at_least_that_of_the_digits(value, spread):
         changed(PLAIN, published={"p0": STATED | {"value": value, "quantity": quantity}})
     )
     assert scene.published["p0"].spread == pytest.approx(spread)
-
-
-@pytest.mark.parametrize(
-    ("entry", "said"),
-    [
-        ({"value": "9.351"}, 'published.p0.value: is "9.351", which has no unit'),
-        ({"value": "9.351 mm"}, "published.p0.value: .*mm.*; allowed is a number and its unit"),
-        ({"value": "-1 MPa"}, "published.p0.value: is -1 MPa; allowed is a size above 0"),
-        ({"quantity": "weight"}, "published.p0.quantity: is .weight.; allowed is"),
-        ({"doubtful": True}, "published.p0.note: is missing beside doubtful = true"),
-        ({"sources": "x"}, "published.p0.sources: is no known field; the nearest is"),
-    ],
-)
-def test_what_is_no_published_figure_is_one_line(entry, said):
-    with pytest.raises(SceneError, match=said):
-        resolved(changed(PLAIN, published={"p0": STATED | entry}))

@@ -153,16 +153,3 @@ def test_the_command_is_a_run_that_prints_a_table_of_80_columns(tmp_path, capsys
     said = " ".join(lines).partition("cheapest for peak pressure to 2 %: ")[2]
     assert "half-plane at" in said.partition("cheapest for")[0]
     assert (tmp_path / "results/small-cost/report.html").exists()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["smoth"], "the nearest scene is smooth"),
-        (["smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
-    ],
-)
-def test_wrong_input_is_one_line(arguments, words, capsys):
-    assert main(["cost", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and words in err and err.count("\n") == 1

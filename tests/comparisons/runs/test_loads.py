@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import STEEL, resolved, run_of
+from scenes import STEEL, run_of
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
@@ -71,15 +71,3 @@ def test_inputs_scatter_at_a_prescribed_approach():
     assert peak.spread.deviation / peak.value == pytest.approx(moduli.std(ddof=1), rel=1e-4)
     assert peak.spread.mean / peak.value == pytest.approx(moduli.mean(), rel=1e-4)
     assert length.spread.deviation < 1e-4 * length.value
-
-
-def test_a_coated_layer_has_no_load_for_samples_at_an_approach():
-    tables = {
-        "roller": {"radius": 10e-3, "rigid": True},
-        "body": dict(STEEL) | {"thickness": 1e-3},
-        "coating": {"youngs_modulus": 400e9, "poissons_ratio": 0.3, "thickness": 1e-5},
-        "load": {"approach": 2e-6},
-        "scatter": {"load": "2 %"},
-    }
-    with pytest.raises(ValueError, match="scatter: is given with a coating and load"):
-        resolved(tables)

@@ -176,27 +176,3 @@ def test_ends_of_a_measured_trace_meet_at_their_mean_or_are_refused(tmp_path):
     assert met.profile.periodic and met.profile.height[0] == met.profile.height[-1]
     with pytest.raises(SceneError, match=r"the ends of the trace are 3e-10 m apart, neighbouring"):
         surface(0.3)
-
-
-@pytest.mark.parametrize(
-    ("changes", "line"),
-    [
-        ({"roller": {"radius": 8e-3}}, "roller.radius: is given beside profile.periodic = true"),
-        ({"profile": {"periodic": False}}, "roller.radius: is missing; allowed is a length"),
-        ({"profile": {"length": 0.7e-3}}, "profile.length: is 1.4 wavelengths; allowed is a whole"),
-        ({"load": {"per_length": 1e5}}, "load.mean_pressure: is given beside per_length"),
-        ({"body": {"hardness": 141e6}}, "load.mean_pressure: is 1.4e.08 Pa at a body.hardness"),
-        ({"statistics": {}}, "statistics: is given for a periodic surface; allowed is none"),
-        (
-            {"finite_element": {"deformation": "finite"}},
-            'finite_element.deformation: does not fit a periodic surface; allowed is "linear"',
-        ),
-        (
-            {"body": {"thickness": 1e-3, "base": "frictionless"}},
-            "load.friction: is given on a frictionless base",
-        ),
-    ],
-)
-def test_what_does_not_fit(changes, line):
-    with pytest.raises(SceneError, match=f"made.toml: {line}"):
-        problem(changed(WAVE, **changes))

@@ -8,7 +8,6 @@ from exact_partial_slip import SlippingContact
 from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.stress.fatigue import ruiz
-from comparisons.common.errors import SceneError
 from comparisons.drawing.blocks import TextTable
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.presentation import parts_of
@@ -179,38 +178,6 @@ def test_of_a_body_that_flows_the_half_plane_stands_alone():
     case = Case(posed, dict.fromkeys(MODELS))
     solved = replace(unsolved(posed, make_plan(posed, MODELS)), cases=(case,))
     assert tuple(solvers(solved)) == MODELS[:1]
-
-
-@pytest.mark.parametrize(
-    "slip, message",
-    [
-        ({"load": 1.0}, "partial_slip.load: is 1.0; allowed is a number .* above 0 and below 1"),
-        ({"loads": [0.5, -1.0]}, "partial_slip.loads: holds -1"),
-        ({"loads": []}, "partial_slip.loads: is a list of 0"),
-        ({"loads": [0], "bulk_stress": BULK}, "partial_slip.bulk_stress: is given without a load"),
-        ({"load": 0.5, "loads": [0.5]}, "partial_slip.loads: is given beside load"),
-        ({}, "partial_slip.load: is missing"),
-        ({"load": 0.5, "bulk_stress": "2 m"}, "partial_slip.bulk_stress: "),
-    ],
-    ids=str,
-)
-def test_wrong_input_is_one_line(slip, message):
-    with pytest.raises(SceneError, match=message.replace("[", r"\[")) as error:
-        resolved(SMOOTH | {"partial_slip": slip})
-    assert "\n" not in str(error.value)
-
-
-@pytest.mark.parametrize(
-    "changes, message",
-    [
-        ({"load": {"friction": 0.0}}, "partial_slip: is given without friction; allowed"),
-        ({"finite_element": {"deformation": "finite"}}, "partial_slip: is of small strains; .*lin"),
-    ],
-    ids=str,
-)
-def test_what_holds_nothing_and_finite_deformation_are_refused(changes, message):
-    with pytest.raises(SceneError, match=message):
-        resolved(changed(SMOOTH, **changes))
 
 
 def test_the_library_has_a_fretting_cycle():

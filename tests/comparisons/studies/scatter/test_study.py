@@ -176,35 +176,6 @@ class TestASample:
         assert np.isfinite(known.one(friction=0.0).spread.mean)
 
 
-@pytest.mark.parametrize(
-    ("scatter", "message"),
-    [
-        ({}, "is missing"),
-        ({"load": "0 %"}, "scatter.load: is"),
-        ({"load": "40 %"}, "reaches -0.2"),
-        ({"load": 3.0}, "per cent"),
-        ({"load": "2 %", "samples": 100}, "64 or 128"),
-        ({"body_poissons_ratio": 0.1}, "scatter.body_poissons_ratio: reaches"),
-        ({"noise": "5 nm"}, "smooth surface"),
-        ({"load": "2 %", "correlation_length": "2 um"}, "without noise"),
-        ({"roller_radius": {"range": ["2 mm", "1 mm"]}}, "range from 0.002 to 0.001"),
-        ({"lod": "2 %"}, "nearest is scatter.load"),
-    ],
-)
-def test_wrong_sections_are_refused(scatter, message):
-    with pytest.raises(ValueError, match=message.replace(".", r"\.")):
-        resolved(SMOOTH | {"scatter": scatter})
-
-
-def test_inputs_that_the_scene_does_not_have_are_refused():
-    rigid = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}}
-    with pytest.raises(ValueError, match=r"without roller\.youngs_modulus"):
-        resolved(rigid | {"scatter": {"roller_youngs_modulus": "2 %"}})
-    sliding = changed(SMOOTH, load={"friction": [0.0, 0.1]})
-    with pytest.raises(ValueError, match="allowed with one"):
-        resolved(sliding | {"scatter": {"friction": 0.01}})
-
-
 def test_the_scene_says_what_it_was(outcome):
     tables = outcome.problem.scene.tables
     assert resolved(tables).scatter == outcome.problem.scene.scatter

@@ -228,14 +228,11 @@ def test_without_the_section_nothing_of_it_runs(monkeypatch):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"profile": None}, "statistics: is given for a smooth surface; allowed only with"),
         ({"profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 1e-7}}, "all as high"),
         ({"profile": ROUGH | {"rms_slope": 1e-12}}, "statistics: the profile is smooth"),
         ({"profile": ROUGH | {"rms_slope": 1e-7}}, "statistics: the roughness hardly shows"),
         ({"profile": ROUGH | {"shortest_wavelength": 2e-3, "longest_wavelength": 4e-3}}, "peaks;"),
         ({"statistics": {"cutoffs": "1 m"}}, "statistics: a cut-off of 1 m does not suit"),
-        ({"statistics": {"metal": "steel"}}, "statistics.metal: is"),
-        ({"statistics": {"traces": 1}}, "allowed is a whole number from 4 to 256"),
         ({"budget": {"memory": 8e5}}, "budget.memory: is 8e+05 bytes, but [statistics] of light"),
     ],
 )
@@ -244,18 +241,6 @@ def test_wrong_input_is_one_line(changes, message):
     with pytest.raises(InputError) as refusal:
         run(resolved(tables), None, ("half_plane",))
     assert message in str(refusal.value) and "\n" not in str(refusal.value)
-
-
-def test_statistics_of_a_smooth_profile_end_with_two_and_write_nothing(tmp_path, capsys):
-    trace, scene, out = tmp_path / "flat.csv", tmp_path / "flat.toml", tmp_path / "out"
-    trace.write_text("".join(f"{x},0.0\n" for x in range(2000)))
-    profile = {"file": "flat.csv", "x_unit": "um", "z_unit": "um"}
-    tables = {"profile": profile, "load": {"per_length": 1e5}, "statistics": {}}
-    scene.write_text(as_toml(SMOOTH | tables))
-    assert main(["run", str(scene), "--out", str(out), "--models", "half-plane"]) == 2
-    said = capsys.readouterr().err
-    assert "statistics: the profile is smooth" in said.splitlines()[-1]
-    assert not out.exists()
 
 
 def test_the_scene_that_comes_along_has_both_kinds_of_asperities():
