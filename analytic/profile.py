@@ -65,7 +65,7 @@ class Profile:
         return CubicSpline(self.x, self.height, bc_type=ends)
 
     def shifted(self, position: float) -> "Profile":
-        """The same profile with its x = `position` [m] moved to the origin."""
+        """Profile whose x = `position` [m] is moved to the origin."""
         return replace(self, x=self.x - position)
 
     def mirrored(self) -> "Profile":

@@ -76,7 +76,7 @@ class RunIn:
 
     @property
     def largest_lowering(self) -> float:
-        """Of any sample, all passes together [m]."""
+        """Largest lowering of any sample by all passes together [m]."""
         return float(self.lowering.max())
 
     @property

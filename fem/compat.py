@@ -107,7 +107,7 @@ def continuous_space(mesh: "Mesh", degree: int, shape: tuple | None) -> "Functio
 
 
 def _compiled_once(name: tuple, make: Callable[[], object]) -> tuple:
-    """What 0.5's compiler makes of a named UFL object: compiled parts, module, code."""
+    """Compile a named UFL object once with 0.5's compiler: compiled parts, module, code."""
     from dolfinx import jit
     from mpi4py import MPI
 

@@ -17,7 +17,7 @@ class MeshError(RuntimeError):
 
 @dataclass(frozen=True)
 class BlockSpec:
-    """What to mesh. Lengths in m."""
+    """Block to mesh. Lengths in m."""
 
     half_width: float
     depth: float

@@ -54,7 +54,7 @@ class GmshWorker:
         return self.made_for == (os.getpid(), WORKER) and self.process.poll() is None
 
     def filled(self, task: tuple) -> tuple[np.ndarray, np.ndarray]:
-        """As `run_worker`."""
+        """See `run_worker`."""
         late = threading.Event()
 
         def stop() -> None:
@@ -113,7 +113,7 @@ def close_workers() -> None:
 
 
 def _environment() -> dict[str, str]:
-    """Of a worker: without a launcher's variables, and with the project to import."""
+    """Environment of a worker: without a launcher's variables, and with the project to import."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
     root = str(Path(__file__).resolve().parents[1])
     paths = [root, *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep))]

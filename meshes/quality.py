@@ -1,4 +1,4 @@
-"""Whether a mesh is fit to solve on.
+"""Quality of a mesh, which shows whether it is fit to solve on.
 
 least_angle_degrees   smallest angle between straight edges of any triangle; 60 is best
 least_jacobian        smallest scaled Jacobian at any corner,

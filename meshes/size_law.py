@@ -197,10 +197,10 @@ def _estimated(pickled: bytes) -> int:
 
 
 def sum_of_integrals(spec: BlockSpec, boxes: list[list[float]], factors: list[float]) -> float:
-    """Of wanted_size ** -2 over boxes x0, x1, z0, z1 [m] and of wanted_size ** -1 along those of no
-    width or no height, each times its factor. Boxes are bisected across their longer extent until
-    the law, whose slope is at most the growth, is nearly constant in each or capped throughout;
-    then three Gauss points each way."""
+    """Integrals of wanted_size ** -2 over boxes x0, x1, z0, z1 [m] and of wanted_size ** -1 along
+    those of no width or no height, each times its factor. Boxes are bisected across their longer
+    extent until the law, whose slope is at most the growth, is nearly constant in each or capped
+    throughout; then three Gauss points each way."""
     boxes, cap, even = np.column_stack([boxes, factors]), largest_size(spec), []
     while len(boxes):
         if len(boxes) > MOST_BOXES:

@@ -58,7 +58,7 @@ def thermal_spec(
     growth: float = 0.2,
     interface: float | None = None,
 ) -> BlockSpec:
-    """What `meshes.build.build_block` meshes for heat through `patches` (k, 2) [m], ascending and
+    """Block that `build_block` meshes for heat through `patches` (k, 2) [m], ascending and
     disjoint, whose ends become vertices; lengths as above [m], `layers` is n.
     `length` is kappa/V with the sign of the material's velocity, infinite at rest, by the smaller
     kappa of body and coating. Raises MeshError where its layers are too thin to mesh."""

@@ -82,7 +82,7 @@ class SecondOrderSurface:
 
     @property
     def _shortening(self) -> float:
-        """Of the surface along x, per pressure [1/Pa]."""
+        """Strain of the surface along x by pressure, as a shortening [1/Pa]."""
         return (0.5 - self.material.poissons_ratio) / self.material.shear_modulus
 
 

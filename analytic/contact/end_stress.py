@@ -1,4 +1,4 @@
-"""What hat pressures leave out of the stresses next to the ends of contact.
+"""Stresses next to the ends of contact that hat pressures leave out.
 
 There the pressure falls like a square root, which no hats follow: within two pitches of an end the
 stress along the surface under its sliding traction is wrong by several per cent of the largest, and
@@ -100,9 +100,9 @@ class EndStress:
 
 
 def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> EndStress:
-    """Of hats at uniform x_nodes (n,) [m] with pressures (n,) [Pa] and gaps (n,) [m], means over
-    the hats. Patches of fewer than FEWEST nodes, and those that bend too much next to an end, keep
-    the stresses of their hats."""
+    """Curves for hats at uniform x_nodes (n,) [m] with pressures (n,) [Pa] and gaps (n,) [m], means
+    over the hats. Patches of fewer than FEWEST nodes, and those that bend too much next to an end,
+    keep the stresses of their hats."""
     pitch = x_nodes[1] - x_nodes[0]
     hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
     nodal = nodal_values(hats, pressure)
@@ -122,7 +122,7 @@ def _balanced(
     pressure: np.ndarray,
     nodal: np.ndarray,
 ) -> SmoothPatch | None:
-    """With ends, near these, where the curve has the hats' force and moment; None if none has."""
+    """Curve with ends, near these, at which it has the hats' force and moment; None if none has."""
     count, pitch = last - first + 1, x_nodes[1] - x_nodes[0]
     held, whole = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
     places, values = x_nodes[held], nodal[held]

@@ -43,13 +43,13 @@ class Constraints:
             raise ValueError(f"the hardness must be positive, not {np.max(self.hardness):g} Pa")
 
     def coarsened(self) -> "Constraints":
-        """The same on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        """Constraints on elements twice as wide, centred on nodes 1, 3, 5, …"""
         if np.ndim(self.hardness) == 0:
             return self
         return replace(self, hardness=self.hardness[1::2])
 
     def carried(self, nodes: np.ndarray, weights: np.ndarray) -> float:
-        """What the marked of the nodes (n,) carry at the hardness [N/m]."""
+        """Load that the marked ones of the nodes (n,) carry at the hardness [N/m]."""
         caps = np.broadcast_to(self.hardness, weights.shape)
         return float(caps[nodes] @ weights[nodes]) if nodes.any() else 0.0
 
@@ -105,7 +105,7 @@ class EquilibriumProblem:
         return self.by_load and bool(upper > PLASTIC * free or not self.can_carry(active))
 
     def _load_of(self, nodes: np.ndarray) -> float:
-        """What these nodes carry at the hardness [N/m]."""
+        """Load that these nodes carry at the hardness [N/m]."""
         return self.constraints.carried(nodes, self.weights)
 
     def feasible(self, pressure: np.ndarray, free: np.ndarray) -> np.ndarray:

@@ -187,7 +187,7 @@ def _wave_gap(wavelength: float, amplitude: float, x: np.ndarray) -> np.ndarray:
 def _figures(
     peak_pressure: float, left: float, right: float, position: float | None = None
 ) -> dict[str, float]:
-    """What every contact has, from its peak pressure [Pa], its edges and the peak's place [m]."""
+    """Figures that every contact has, by its peak pressure [Pa], its edges and its peak's x [m]."""
     edges = {"contact_length": right - left, "left_edge": left, "right_edge": right}
     place = {} if position is None else {"peak_position": position}
     return {"peak_pressure": peak_pressure} | edges | place

@@ -177,7 +177,7 @@ class ManufacturedContact:
         return sum(patch.pressure(x) for patch in self.patches)
 
     def displacement(self, x: np.ndarray) -> np.ndarray:
-        """Of both surfaces towards each other [m] at x (n,) [m], but for a constant."""
+        """Displacement of the surfaces towards each other [m] at x (n,) [m], but for a constant."""
         x = np.asarray(x, dtype=float)
         half_plane = -2.0 / self.modulus * sum(patch.sinking(x) for patch in self.patches)
         if self.layer is None:

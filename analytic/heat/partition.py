@@ -29,7 +29,7 @@ PASSES = 8  # of GMRES; rough contacts of bodies as unlike as steel and a polyme
 
 @dataclass(frozen=True)
 class HeatPartition:
-    """What a contact heats both bodies by."""
+    """Heat that a contact brings into both bodies."""
 
     flux: np.ndarray  # (n,) [W/m^2] into the first
     first: np.ndarray  # (n,) [K] rise of its surface above its bulk temperature

@@ -29,7 +29,7 @@ _BLOCK = 256  # nodes whose phases are one block's times one place's
 
 @dataclass(frozen=True)
 class AddedStress:
-    """What the base adds to a half-plane's stresses, of every wave."""
+    """Stresses that the base adds to a half-plane's, by waves."""
 
     body: LayeredBody
     middle: float  # x [m] that phases count from
@@ -93,7 +93,7 @@ def _transform(k: np.ndarray, first: float, pitch: float, values: np.ndarray) ->
 
 
 def _rows(body: LayeredBody, k: np.ndarray, z: np.ndarray, below: bool) -> np.ndarray:
-    """What the base adds to sx, sz, txz under p e^ikx and under q e^ikx, (6, …) for k > 0."""
+    """Stresses sx, sz, txz that the base adds under p e^ikx and under q e^ikx, (6, …), k > 0."""
     p, q = _below(body, k, z) if below else added_stress(body, k, z)
     return np.array([p.sx + 0j, p.sz + 0j, -1j * p.txz, 1j * q.sx, 1j * q.sz, q.txz + 0j])
 
@@ -116,7 +116,7 @@ def _below(body: LayeredBody, k: np.ndarray, z: np.ndarray) -> tuple[StressState
 def _half_plane(
     k: np.ndarray, z: np.ndarray, p: np.ndarray | float, q: np.ndarray | float
 ) -> StressState:
-    """Of a half-plane under p cos kx and q sin kx."""
+    """Stresses of a half-plane under p cos kx and q sin kx."""
     depth = k * z
     fall = np.exp(-depth)
     return StressState(

@@ -13,7 +13,7 @@ LAWS = ("neo-hookean", "hencky", "st-venant-kirchhoff", "murnaghan")
 
 @dataclass(frozen=True)
 class Law:
-    """What stress follows from a finite strain; all laws have the same limit of small strains."""
+    """Stress that follows from a finite strain; all laws have the same limit of small strains."""
 
     name: str = "neo-hookean"  # one of LAWS
     # third-order constants l, m, n [Pa], of that law alone, and where known their standard errors

@@ -68,7 +68,7 @@ def murnaghan_errors(
 
 
 def _pressure_scale(name: str, material: Material) -> float:
-    """What a pressure derivative is multiplied by [Pa] to be linear in l, m, n; else 1."""
+    """Factor [Pa] that makes a pressure derivative linear in l, m, n; else 1."""
     return -9.0 * material.bulk_modulus if name in PRESSURE_DERIVATIVES else 1.0
 
 

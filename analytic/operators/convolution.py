@@ -87,8 +87,8 @@ class Convolution:
 
     @made_once
     def coarsened(self) -> Self | None:
-        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are what it
-        was made with beside their number and its `pitch`."""
+        """Operator on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are those of
+        its constructor beside the number of elements and their `pitch`."""
         return type(self)(self.count // 2, 2.0 * self.pitch, *self.arguments)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
@@ -119,7 +119,7 @@ class Convolution:
         return cholesky_solve(self.block(nodes), right)
 
     def cropped(self, span: int) -> "Convolution | None":
-        """The same on a shorter stretch of the line that holds `span` nodes; cached. None where it
+        """Operator on a shorter stretch of the line with `span` nodes; cached. None where that
         would not be much shorter, and on a periodic line."""
         length = -(-CROPS * span // self.count) * self.count // CROPS
         length = max(length, span)

@@ -98,7 +98,7 @@ class HalfPlane(Convolution):
         super().__init__(column, self._symbol)
 
     def on_base(self, compliance: float) -> "HalfPlane":
-        """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.
+        """Half-plane on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.
         That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST."""
         further = np.clip(0.5 * np.pi * self.modulus * compliance, 0.0, FURTHEST)
         datum = self.datum * float(np.exp(further))
@@ -140,7 +140,7 @@ class SumOfConvolutions(Convolution):
 
     @made_once
     def coarsened(self) -> "SumOfConvolutions | None":
-        """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        """Sum of the same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
         coarser = [body.coarsened() for body in self.bodies]
         return None if None in coarser else SumOfConvolutions(*coarser)
 
@@ -167,7 +167,7 @@ class DenseMatrix:
 
     @made_once
     def coarsened(self) -> Self:
-        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
+        """Matrix of the same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         rows = restricted(self.matrix, self.periodic)
         return type(self)(restricted(rows.T, self.periodic).T, self.skew)
 

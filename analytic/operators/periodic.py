@@ -39,7 +39,7 @@ class PeriodicHalfPlane(Convolution):
         super().__init__(column, None, periodic=True)
 
     def coarsened(self) -> "PeriodicHalfPlane | None":
-        """As of `Convolution`; None for an odd number of elements and once few are left."""
+        """See `Convolution`; None for an odd number of elements and once few are left."""
         return None if self.count % 2 or self.count < 2 * FEWEST else super().coarsened()
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:

@@ -81,7 +81,7 @@ class CoupledPair(Convolution):
         return self.normal.symbol(cycles) + self.friction * self.tangential.symbol(cycles)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """As of `Convolution`, by elimination."""
+        """See `Convolution`; by elimination."""
         if not self.skew:
             return super().solve(nodes, right)
         if len(nodes) > DIRECT:
@@ -90,7 +90,7 @@ class CoupledPair(Convolution):
 
     @made_once
     def coarsened(self) -> "CoupledPair | None":
-        """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        """Pair on elements twice as wide, centred on nodes 1, 3, 5, …"""
         normal, tangential = self.normal.coarsened(), self.tangential.coarsened()
         if normal is None or tangential is None:
             return None

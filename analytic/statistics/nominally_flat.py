@@ -23,8 +23,8 @@ TAIL = 9.5  # standard deviations beyond which phi is less than rounding
 
 @dataclass(frozen=True)
 class Summits:
-    """Of a surface, or peaks of a profile: density [1/m^2] or [1/m], radius, standard deviation of
-    the height and mean height above the mean plane or line [m]."""
+    """Summits of a surface, or peaks of a profile: density [1/m^2] or [1/m], radius, standard
+    deviation of the height and mean height above the mean plane or line [m]."""
 
     density: float
     radius: float

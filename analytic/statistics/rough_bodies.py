@@ -152,9 +152,9 @@ class _Bulk:
 
 
 def _cylinder(reach: float, nodes: int) -> _Bulk:
-    """With rho = L cos t, ln|cos t - cos u| = -ln 2 - sum (2/k) cos kt cos ku: in the cosines of
-    p* L sin t, smooth as p* is zero at its ends, the log kernel is diagonal. By symmetry the nodes
-    of 0 < t < pi/2 and the even k are all."""
+    """Bulk of a cylinder. With rho = L cos t, ln|cos t - cos u| = -ln 2 - sum (2/k) cos kt cos ku:
+    in the cosines of p* L sin t, smooth as p* is zero at its ends, the log kernel is diagonal. By
+    symmetry the nodes of 0 < t < pi/2 and the even k are all."""
     t = 0.5 * np.pi * (np.arange(nodes) + 0.5) / nodes
     even = 2.0 * np.arange(nodes)
     cosines = np.cos(np.outer(t, even))

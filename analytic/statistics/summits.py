@@ -41,7 +41,7 @@ class SpectralMoments:
         return self.m0 * self.m4 / self.m2**2
 
     def peaks(self) -> Summits:
-        """Of a Gaussian profile."""
+        """Peaks of a Gaussian profile."""
         return Summits(
             density=float(np.sqrt(self.m4 / self.m2) / (2.0 * np.pi)),
             radius=float(np.sqrt(2.0 / (np.pi * self.m4))),
@@ -50,7 +50,7 @@ class SpectralMoments:
         )
 
     def summits(self) -> Summits:
-        """Of an isotropic Gaussian surface."""
+        """Summits of an isotropic Gaussian surface."""
         return Summits(
             density=self.m4 / (6.0 * np.sqrt(3.0) * np.pi * self.m2),
             radius=3.0 * np.sqrt(np.pi / self.m4) / 8.0,
@@ -60,7 +60,7 @@ class SpectralMoments:
 
 
 def spectral_moments(profile: Profile) -> SpectralMoments:
-    """Of the profile's spline; ValueError for a smooth profile."""
+    """Moments of the profile's spline; ValueError for a smooth profile."""
     _, rq, slope = moments(profile)
     if not slope > SMOOTH:
         raise ValueError(f"the profile is smooth: its rms slope is {slope:.3g}")

@@ -40,7 +40,7 @@ class FrictionStress:
         return self.normal.sx, self.normal.sz, self.normal.txz, self.traction_sx
 
     def plus(self, parts: np.ndarray, along: float = 0.0) -> "FrictionStress":
-        """With those of another load, given as to `of`."""
+        """Add the stresses of another load, given as to `of`."""
         return FrictionStress.of(np.array(self.parts) + parts, self.along + along)
 
     @property
@@ -101,7 +101,7 @@ def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
 
 
 def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStress:
-    """Of a unit element at 0, by x and z in pitches."""
+    """Stresses of a unit element at 0, by x and z in pitches."""
     return hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
 
 
@@ -131,7 +131,7 @@ def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def _second_difference(at: np.ndarray) -> np.ndarray:
-    """Of three rows; the outer two first, so that opposite ones cancel exactly."""
+    """Second difference of three rows; the outer first, so that opposite ones cancel exactly."""
     return at[0] + at[2] - 2.0 * at[1]
 
 

@@ -48,7 +48,7 @@ def held_along(mean: float, poissons_ratio: float) -> float:
 
 @dataclass(frozen=True)
 class ImageStress:
-    """What all periods but the middle three of `grid` add, under its pressure (n,) [Pa]."""
+    """Stresses of all periods but the middle three of `grid`, under its pressure (n,) [Pa]."""
 
     grid: HatGrid
     pressure: np.ndarray
@@ -108,15 +108,15 @@ def far_kernel(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class PeriodicRest:
-    """What the hats of three periods leave out: the other periods, a stress `along` x [Pa], and
-    `ends`, as (4, …) of x and z [m], of contact."""
+    """Stresses that the hats of three periods leave out: those of the other periods, a stress
+    `along` x [Pa], and `ends`, as (4, …) of x and z [m], of contact."""
 
     ends: Callable[[ArrayLike, ArrayLike], np.ndarray]
     images: ImageStress
     along: float
 
     def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
-        """As of `ImageStress`, all but `along`."""
+        """See `ImageStress`; all but `along`."""
         return self.ends(x, z) + self.images.parts(x, z)
 
     def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:

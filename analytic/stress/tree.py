@@ -67,13 +67,13 @@ def _holds(level: BoxLevel, box: np.ndarray) -> bool:
 
 @lru_cache(maxsize=32)
 def _everywhere(load: bytes, element: Element) -> list[BoxLevel]:
-    """Of all boxes over a load, and of their neighbours."""
+    """Levels with all boxes over a load, and their neighbours."""
     count = _outer_levels(load, element)[0].shape[1]
     return _levels(load, element, [np.arange(-NEIGHBOURS, count + NEIGHBOURS)])
 
 
 def _levels(load: bytes, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
-    """Of the boxes that are asked for, and their ancestors."""
+    """Levels with the boxes that are asked for, and their ancestors."""
     outer = list(_outer_levels(load, element))
     while len(outer) < len(boxes):
         outer.append(_parents(outer[-1]))

@@ -25,7 +25,7 @@ STRAIGHT = 64.0 * np.finfo(float).eps  # a sagitta below this part of the height
 
 @dataclass(frozen=True)
 class RemovedForm:
-    """What `remove_form` took away."""
+    """Form that `remove_form` took away."""
 
     kind: str  # none | mean | line | arc
     mean: float = 0.0  # [m] mean height of the trace before removal; 0 if nothing was removed

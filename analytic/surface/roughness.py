@@ -165,7 +165,7 @@ def crossings(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
 
 
 def _zeros_of_quadratics(piecewise: PPoly) -> np.ndarray:
-    """The same for pieces of degree 2 at most, all at once; a zero at a break counts twice."""
+    """Crossings of zero by pieces of degree 2 at most, all at once; one at a break counts twice."""
     c, b, a = [*piecewise.c[::-1], np.zeros(len(piecewise.x) - 1)][:3]
     root = np.sqrt(np.maximum(b**2 - 4.0 * a * c, 0.0))
     sum_of_one_sign = -0.5 * (b + np.copysign(root, b))

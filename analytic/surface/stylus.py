@@ -1,4 +1,4 @@
-"""What a stylus does to a trace: noise on its heights, crests no sharper than its tip."""
+"""Model of a stylus: noise on a trace's heights, and crests no sharper than its tip."""
 
 import numpy as np
 from scipy.interpolate import CubicSpline

@@ -88,7 +88,7 @@ def gradients(
 
 
 def inverse(matrix: np.ndarray) -> np.ndarray:
-    """Of 2 by 2 matrices (..., 2, 2): ten times as fast as numpy's for any size."""
+    """Invert 2 by 2 matrices (..., 2, 2): ten times as fast as numpy's for any size."""
     (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
     result = np.empty_like(matrix)
     result[..., 0, 0], result[..., 0, 1], result[..., 1, 0], result[..., 1, 1] = d, -b, -c, a

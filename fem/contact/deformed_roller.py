@@ -50,7 +50,7 @@ class TwoBodies:
         self.softness = min(moduli) * np.concatenate(soft)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        """As of `fem.contact.terms.Response`."""
+        """See `fem.contact.terms.Response`."""
         pieces = zip(self.parts, self._split(displacement), strict=True)
         forces, tangents = zip(*(part.linearised(u) for part, u in pieces), strict=True)
         return np.vstack(forces), block_diag(tangents, format="csr")
@@ -135,7 +135,7 @@ class PairContact:
         return gap[1:-1], force.ravel()
 
     def on_body(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Of `at` the rows and columns of the rough body: as if the roller stayed as it is."""
+        """Rows and columns of `at` for the rough body: as if the roller stayed as it is."""
         under, (_, z), _, (rise, slope, bend), _, _ = self._met(displacement)
         count, size, one = len(self._hats), 2 * self._first, np.ones_like(slope)
         column, hat = under.column + 1, under.hat * under.weight

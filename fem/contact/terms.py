@@ -101,7 +101,7 @@ class LinearContact:
     def loaded(
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """As of `Contact`."""
+        """See `Contact`."""
         return self._gradient.T @ displacement.ravel(), self._force @ pressure
 
 

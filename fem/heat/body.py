@@ -119,7 +119,7 @@ def thermal_body(
 def _form(
     kind: str, space: "FunctionSpace", points: int, factor: object, curvature: object = None
 ) -> "ufl.Form":
-    """Of one of the body's matrices; `points` is the degree that the quadrature is exact for."""
+    """Form of one of the body's matrices; the quadrature is exact for the degree `points`."""
     import ufl
 
     t, s = ufl.TrialFunction(space), ufl.TestFunction(space)

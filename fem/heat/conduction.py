@@ -41,7 +41,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What the body meets below and on its two sides; its surface beside the flux is insulated.
+    """Conditions below the body and on its two sides; its surface beside the flux is insulated.
 
     "held"       temperatures are given, those of the bulk unless others are
     "insulated"  no heat passes by conduction; moving material carries its own out

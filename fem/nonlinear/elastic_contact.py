@@ -1,4 +1,4 @@
-"""What stays elastic in a contact with flow: a body on its vertices, and a contact on compliances.
+"""Elastic parts of a contact with flow: a body on its vertices, and a contact on compliances.
 
 Nomenclature: C compliance [m^2/Pa] of hat pressures p [Pa], w integrals of the hats [m]."""
 

@@ -187,10 +187,10 @@ class FiniteContact:
     def settled(
         self, state: ContactState, load: float | None, asked: float | None
     ) -> tuple[np.ndarray, float | None, bool]:
-        """What to solve next after the state of pressures that press with `asked` [N/m]: from a
-        displacement (n, 2) [m] with the bodies moved back, and pressing with what a `load` [N/m]
-        leaves to pressures; None where the approach is prescribed. And whether neither differs by
-        more than ASIDE of a hat and LEANING of the load."""
+        """Start of the next solution, after the state of pressures that press with `asked` [N/m]: a
+        displacement (n, 2) [m] with the bodies moved back; the force that a `load` [N/m] leaves to
+        pressures, None where the approach is prescribed; and whether neither differs by more than
+        ASIDE of a hat and LEANING of the load."""
         moved, off = self.set_back(state.displacements[0], state.pressure)
         is_settled = off <= ASIDE * self.weights.mean()
         if load is None:
@@ -210,7 +210,7 @@ class FiniteContact:
         return float(force.reshape(-1, 2)[: len(self.body.nodes), 1].sum())
 
     def pressing(self, load: float, moved: np.ndarray, pressure: np.ndarray) -> float:
-        """What pressures alone press with [N/m] where they and their friction bear a `load` [N/m],
+        """Force of the pressures alone [N/m] where they and their friction bear a `load` [N/m],
         by the tangents of one state."""
         return load * float(self.weights @ pressure) / self.borne(moved, pressure)
 

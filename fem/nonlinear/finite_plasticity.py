@@ -39,8 +39,8 @@ UNCHANGED = 1e-3  # change of F that leaves an elastic element its tangent: a pa
 
 
 class FinitePlasticBody(PlasticBody):
-    """As `PlasticBody`, at finite strains: displacements (n, 2) [m] of any size that invert no
-    element. FemError where one is inverted.
+    """`PlasticBody` at finite strains: displacements (n, 2) [m] of any size that invert no element.
+    FemError where one is inverted.
 
     state   logarithmic plastic strain ep at the points, xx, zz, xz"""
 
@@ -89,7 +89,7 @@ class FinitePlasticBody(PlasticBody):
         return self._balanced(self._slopes_of(unflowed), strain, conjugate)
 
     def bearable(self, equivalent: np.ndarray, mean: np.ndarray) -> np.ndarray:
-        """As of `PlasticBody`, of Cauchy's stress: that of Kirchhoff over J, K ln J = J mean."""
+        """See `PlasticBody`; of Cauchy's stress: that of Kirchhoff over J, K ln J = J mean."""
         kirchhoff = super().bearable(equivalent, mean)
         return kirchhoff * np.exp(-mean / self.metal.elastic.bulk_modulus)
 

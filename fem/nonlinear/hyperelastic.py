@@ -147,7 +147,7 @@ class CauchyRecovery(Recovery):
 
     @property
     def nodal(self) -> NodalStress:
-        """The same, and what interpolates them."""
+        """Stresses at the nodes, and what interpolates them."""
         nu = self.nodes.of_triangles(self.body.poissons_ratio)
         return NodalStress(self.nodes, nu, self.at, lambda: self.estimate, self.load.kinks)
 

@@ -136,7 +136,7 @@ def newton_by_contacts(
 def _off_contact(
     problem: ContactProblem, bodies: Sequence[tuple[Response, Contact]], state: ContactState
 ) -> float:
-    """What is left of g >= 0, p >= 0, complementary, over the pressure, on deformed surfaces."""
+    """Residual of g >= 0, p >= 0, complementary, over the pressure, on deformed surfaces."""
     pressure, weights = state.pressure, problem.weights
     opening = problem.constant - state.approach * weights
     for (_, contact), u in zip(bodies, state.displacements, strict=True):

@@ -42,8 +42,8 @@ MOST_CORRECTIONS = 25
 
 @dataclass(frozen=True)
 class FinitePlasticContact(PlasticContact):
-    """As `PlasticContact`. The pressure is the vertical force per undeformed length of x, and the
-    plastic strain logarithmic, in the axes of the undeformed body."""
+    """`PlasticContact` at finite strains. The pressure is the vertical force per undeformed length
+    of x, and the plastic strain logarithmic, in the axes of the undeformed body."""
 
     deformed: FiniteDeformation  # places, stretches, Cauchy's pressure and gap; not its stresses
 
@@ -81,7 +81,7 @@ class _Surfaces:
     def loaded(
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """As of `fem.contact.terms.Contact`. The roller follows where the body has moved."""
+        """See `fem.contact.terms.Contact`. The roller follows where the body has moved."""
         terms = self._last_terms
         if terms is not None and np.array_equal(self._there[0], displacement):
             return self._stiff(terms.gap, pressure), terms.force @ pressure
@@ -89,7 +89,7 @@ class _Surfaces:
         return self._stiff(gap, pressure), force
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """As of `fem.contact.terms.Contact`."""
+        """See `fem.contact.terms.Contact`."""
         self._followed(displacement, pressure)
         self._last_terms = self._terms(self.placed(displacement, pressure), pressure)
         return replace(self._last_terms, gap=self._stiff(self._last_terms.gap, pressure))
@@ -131,8 +131,8 @@ class _Start(ContactState):
 
 
 class FiniteLoadHistory(LoadHistory):
-    """As `LoadHistory`, at finite strains. The linear compliances lead ahead: gap and displacements
-    are what the last contact had, and the linear change since then.
+    """`LoadHistory` at finite strains. The linear compliances lead ahead: gap and displacements are
+    those of the last contact, and the linear change since then.
 
     contact  body and roller, undeformed, with the linear pressure under the first load; the body's
              material is the metal's elastic one, whose law is not asked for: it is Hencky's
@@ -197,7 +197,7 @@ class FiniteLoadHistory(LoadHistory):
         approach: float | None = None,
         residual: float = RESIDUAL,
     ) -> tuple["_Start", int]:
-        """As of small strains; pressures bear what their friction leaves of the load. Both are made
+        """See `LoadHistory`; pressures bear what their friction leaves of the load. Both are made
         more accurate in turn."""
         contacts, asked, left = 0, None, 1.0
         goal = residual if residual == RESIDUAL else ON_THE_WAY

@@ -157,7 +157,7 @@ class LoadHistory:
         return tuple(history)
 
     def contact(self, load: float, iterations: int) -> PlasticContact:
-        """What was reached by linear contacts, under a load or without the roller."""
+        """Contact that linear contacts reached, under a load or without the roller."""
         pressure = self.state.pressure if load else np.zeros_like(self.state.pressure)
         displacement, state = self.state.displacements[0], self.body.state
         return PlasticContact(load, pressure, self.state.approach, displacement, state, iterations)

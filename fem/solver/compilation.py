@@ -66,7 +66,7 @@ def load_dolfinx() -> None:
 
 
 def compiled(make: Callable[[], Result]) -> Result:
-    """What `make`, which may compile forms, returns. TimeoutError if another does for a minute."""
+    """Result of `make`, which may compile forms. TimeoutError if another does for a minute."""
     waits, clear = 0, _clear_once
     while True:
         clear(compat.form_cache())

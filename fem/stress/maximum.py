@@ -86,12 +86,12 @@ def maxima(
     cells: Sequence[float] = (),
     samples: Samples | None = None,
 ) -> np.ndarray:
-    """The same in each cell of x, from left to right: value, x and z (3, k + 1) [m].
+    """Largest value in each cell of x, from left to right: value, x and z (3, k + 1) [m].
 
     cells  (k,) [m] where one cell ends and the next begins, ascending
 
     Where the highest node is below NEAR of the highest of all, that node is taken; a cell without a
-    node in the window has the value 0 and no place.
+    node in the window has the value 0 and no x and z.
     """
     x0, x1, z1 = window
     points, nu = body.points[nodal.nodes.point], nodal.poissons_ratio

@@ -69,7 +69,7 @@ class NodalStress:
         return MaterialStress(*self.values.T, self.poissons_ratio)
 
     def plus(self, values: np.ndarray) -> "NodalStress":
-        """With further sx, sz, txz (k, 3) [Pa], quadratic between the nodes."""
+        """Add further sx, sz, txz (k, 3) [Pa], quadratic between the nodes."""
         return replace(
             self,
             at=lambda node: self.at(node) + values[node],

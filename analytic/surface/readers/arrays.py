@@ -27,15 +27,15 @@ Others = dict[str, tuple[int, str]]  # size and kind of each array that is not o
 
 
 def is_arrays(path: Path, head: bytes) -> bool:
-    """Whether a file that begins with these bytes is one of these."""
+    """True if a file that begins with these bytes is one of these."""
     return head.startswith(NPY) or (head.startswith(ZIP) and path.suffix == ".npz")
 
 
 def read_arrays(
     path: Path, columns: Sequence[str | int] | None, channel: str | None, is_map: bool = False
 ) -> ProfileTable | Topography:
-    """What is in the file; `channel` is the name of one array of several, `is_map` whether one of
-    two dimensions is a map however few its columns are.
+    """Read the file; `channel` is the name of one array of several, `is_map` whether one of two
+    dimensions is a map however few its columns are.
     Raises ProfileError, one line, for anything else than arrays of real numbers."""
     check_unpacked(path)
     raw = contents(path, MAX_BYTES)

@@ -17,7 +17,7 @@ class ReaderError(Exception):
 def said_by(
     command: Sequence[str], environment: Mapping[str, str] | None = None, cwd: str | None = None
 ) -> str:
-    """What a command prints. Raises ReaderError where it fails, with its last words, and OSError
+    """Text that a command prints. Raises ReaderError where it fails, with its last words; OSError
     where there is no such command."""
     try:
         done = subprocess.run(

@@ -61,7 +61,7 @@ def open_measured(
     one_column: bool = False,
     is_map: bool = False,
 ) -> ProfileTable | Topography:
-    """What a file holds: a table of one or two columns, or a topography.
+    """Open a file: a table of one or two columns, or a topography.
 
     columns     as `analytic.surface.readers.text.chosen_columns` has them
     channel     of a file with several, by its name (of xlsx a sheet); None is the first, or what
@@ -139,8 +139,8 @@ def profile_of(
 def _map_in_text(
     path: Path, is_map: bool, opened: ProfileTable | ProfileError
 ) -> ProfileTable | Topography | ProfileError:
-    """What SurfaceTopography reads of text that is no profile, or that `is_map`; else as what it
-    was `opened`, where that is refused with what would help."""
+    """Topography that SurfaceTopography reads of text that is no profile, or that `is_map`; else
+    `opened`, which says how to get SurfaceTopography where that may help."""
     try:
         topography = _by_library(path, None, None)
     except AbsentReaderError:

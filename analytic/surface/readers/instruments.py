@@ -105,7 +105,7 @@ def _table(path: Path, numbers: np.ndarray, first: int, answer: dict) -> Profile
 
 
 def _ask(path: Path, target: Path, channel: str | None) -> dict:
-    """What the worker says of a file, {"problem": one line} if it fails; arrays are in `target`."""
+    """Reply of the worker, {"problem": one line} if it fails; arrays are in `target`."""
     paths = [str(ROOT), *filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
     python = os.environ.get(OTHER_PYTHON) or sys.executable

@@ -1,4 +1,4 @@
-"""What is in the file of a profile: its bytes or its lines, bounded, and why it cannot be used."""
+"""Bytes or lines in the file of a profile, bounded, and why it cannot be used."""
 
 import gzip
 import re
@@ -77,7 +77,7 @@ def beginning(path: Path, count: int) -> bytes:
 
 
 def contents(path: Path, max_bytes: int) -> bytes:
-    """What is in the file, unpacked where it is gz, of `max_bytes` at most either way."""
+    """Bytes in the file, unpacked where it is gz, `max_bytes` at most either way."""
 
     def too_large(most: int) -> ProfileError:
         return ProfileError(path, f"is too large; a profile may have {most / 1e6:.3g} MB")

@@ -1,4 +1,4 @@
-"""What a measuring instrument's file holds: a line scan, or a map of which one line is pressed.
+"""Topography in a measuring instrument's file: a line scan, or a map of which one line is pressed.
 
 Heights that were not measured are NaN. A map's first sample lies at (0, 0); columns follow each
 other along its x, rows along its y, both in the order of the file and counted from 0."""
