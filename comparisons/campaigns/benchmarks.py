@@ -29,7 +29,7 @@ def cases() -> list[Trial]:
 
 
 def figures_of_benchmark(name: str) -> Iterator[Figure]:
-    """What is published of a benchmark, against both models."""
+    """Figures of both models that are held to what is published of a benchmark."""
     from comparisons.runs.run import solve_scene
 
     yield from solve_scene(Scene.read(name), None, MODELS).figures.of(study=NAME)
@@ -48,7 +48,7 @@ class Benchmarks(Campaign):
         }
 
     def as_dict(self) -> dict:
-        """With a table of texts, a row for each published figure."""
+        """Results as JSON, with a table of texts, a row for each published figure."""
         columns = ("published_figure", *HEAD[1:-1], "note")
         rows = [
             {"benchmark": name} | dict(zip(columns, row, strict=True))

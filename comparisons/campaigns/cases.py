@@ -77,7 +77,7 @@ def holds(figure: Figure) -> bool:
 
 
 def excess(figure: Figure) -> float:
-    """By what factor a value is beyond its nearer bound."""
+    """Factor by which a value is beyond its nearer bound."""
     value, (low, high) = figure.value, figure.bounds
     if not math.isfinite(value):
         return math.inf

@@ -1,1 +1,1 @@
-"""What does not depend on contact: errors, progress, processes, files, numbers, units, names."""
+"""Code that knows no contact: errors, progress, processes, files, numbers, units, names."""

@@ -49,7 +49,7 @@ class SolverError(OneLineError, RuntimeError):
 
 
 class MissingLibrary(OneLineError, ModuleNotFoundError):
-    """What is asked for needs a library that is not installed; the command line ends with 2."""
+    """Error where a library is needed and not installed; the command line ends with 2."""
 
 
 def check_finite_elements() -> None:

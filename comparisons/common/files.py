@@ -45,7 +45,7 @@ def claimed(out: Path, files: tuple[str, ...] = OWN_FILES) -> set[str]:
 
 
 def holds_comparison(out: Path) -> bool:
-    """Whether a folder has a finished run of both models."""
+    """True where a folder has a finished run of both models."""
     return {f"{model}/contact.csv" for model in OWN_FOLDERS[:2]} <= claimed(out)
 
 

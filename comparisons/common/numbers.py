@@ -54,7 +54,7 @@ def scale_of(values: Iterable[float | None], unit: str) -> Scale:
 
 
 def is_whole(text: str) -> bool:
-    """Whether a text is a whole number from 0 on, in the digits that Python and TOML write."""
+    """True for a whole number from 0 on, in the digits that Python and TOML write."""
     return text.isascii() and text.isdecimal()
 
 

@@ -56,7 +56,7 @@ class ProcessWorker:
         return self._pipe.recv()
 
     def how_it_ended(self) -> str:
-        """In words, of a process that has ended."""
+        """Words on how the process has ended."""
         self._process.join()
         code = self._process.exitcode
         if code == -signal.SIGKILL:
@@ -64,7 +64,7 @@ class ProcessWorker:
         return f"ended by {signal.Signals(-code).name}" if code < 0 else f"ended with status {code}"
 
     def kill(self) -> None:
-        """With what it has started; a long factorisation handles no other signal."""
+        """Kill it and what it has started; a long factorisation handles no other signal."""
         with suppress(ProcessLookupError):  # it has no group yet
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.kill()

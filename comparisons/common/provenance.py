@@ -1,4 +1,4 @@
-"""What a result was made with: versions, machine, hashes; and how such records are written."""
+"""Versions, machine and hashes that a result was made with, and how such records are written."""
 
 import hashlib
 import json
@@ -57,7 +57,7 @@ def revision() -> str | None:
 
 
 def machine() -> dict[str, str | int | None]:
-    """What the run's times depend on."""
+    """Properties of the machine that a run's times depend on."""
     return {
         "system": platform.system(),
         "release": platform.release(),
@@ -69,7 +69,7 @@ def machine() -> dict[str, str | int | None]:
 
 
 def _threads() -> int | None:
-    """Of the outermost level, as OMP_NUM_THREADS asks for; None where it says nothing legal."""
+    """Threads of the outermost level by OMP_NUM_THREADS; None where it says nothing legal."""
     first = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
     return int(first) or None if is_whole(first) else None
 

@@ -62,7 +62,7 @@ class Here:
         self._held: dict[str, tuple[object, object]] = {}
 
     def held(self, kind: str, key: object, make: Callable[[], Held]) -> Held:
-        """What `make` gave for the key; of each kind the latest key's is held alone."""
+        """Object that `make` gave for the key; of each kind the latest key's is held alone."""
         if kind not in self._held or self._held[kind][0] != key:
             self._held.pop(kind, None)  # before the next is made: memory
             self._held[kind] = key, make()
@@ -89,7 +89,7 @@ class _Task:
 
 @dataclass
 class Tasks:
-    """What there is to compute, by key; `result` gives it.
+    """Tasks to compute, by key; `result` gives their results.
 
     >>> with Tasks() as tasks:
     ...     tasks.add("eight", called, pow, 2, 3)
@@ -169,7 +169,7 @@ class Tasks:
         self._tasks[key].urgency = min(self._tasks[key].urgency, urgency)
 
     def held(self, kind: str, key: object, make: Callable[[], Held]) -> Held:
-        """What this process holds (`Here.held`)."""
+        """Object that this process holds (`Here.held`)."""
         return self._here.held(kind, key, make)
 
     def result(self, key: str) -> object:
@@ -185,7 +185,7 @@ class Tasks:
         raise answer
 
     def left(self) -> dict[str, _Task]:
-        """What is known and not done, by key, without what may turn out to be for nothing."""
+        """Tasks that are known and not done, by key, without those that may be for nothing."""
         return {
             key: task
             for key, task in self._tasks.items()

@@ -24,7 +24,7 @@ class UnknownUnitError(UnitError):
 
 @dataclass(frozen=True)
 class Dimension:
-    """What a field measures: `phrase` for messages, its SI unit, and an example of a value."""
+    """Dimension of a field: `phrase` for messages, its SI unit, and an example of a value."""
 
     phrase: str
     si_unit: str
@@ -153,7 +153,7 @@ def _factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
 
 
 def pint_factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
-    """As pint has it: SI units in one `unit`. Raises UnitError, which quotes `entry`."""
+    """SI units in one `unit`, by pint. Raises UnitError, which quotes `entry`."""
     if _UNIT.fullmatch(unit) is None or len(unit) > _LONGEST_UNIT:
         raise UnknownUnitError(f"is {describe(entry)}, and {describe(unit)} is not a unit")
     registry = _registry()

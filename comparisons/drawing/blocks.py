@@ -1,4 +1,4 @@
-"""What a page is made of, as data: blocks of tables, pictures and notes, in order.
+"""Blocks that a page is made of, as data: tables, pictures and notes, in order.
 
 In: texts, names of pictures. Out: dataclasses, which a template shows by their classes' names."""
 
@@ -49,8 +49,8 @@ class Bullets:
 
 @dataclass(frozen=True)
 class Pictures:
-    """What the drawing functions of these names give, one below the other or, if narrow, `abreast`;
-    of several those of `part`. The heading is left out where there is nothing."""
+    """Pictures by these functions, one below the other or, if narrow, `abreast`; where one gives
+    several, those of `part`. The heading is left out where there is nothing."""
 
     names: tuple[str, ...]
     heading: str = ""
@@ -77,7 +77,7 @@ class Block:
 
 
 def attempted(what: str, make: Callable[[], object]) -> object:
-    """What `make` gives. If it fails, one line in its place, which standard error gets, too: what
+    """Result of `make`. If it fails, one line in its stead, which standard error gets, too: what
     is shown of a result is never worth the result. CROSSCHECK_TRACEBACK lets the error through."""
     try:
         return make()

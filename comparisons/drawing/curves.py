@@ -87,7 +87,7 @@ def distinct(curves: Mapping[str, Curve], least: float = 0.0) -> dict[tuple[str,
 
 
 def joint_label(names: Sequence[str], beside: str = "") -> str:
-    """Of a line that stands for several."""
+    """Label of a line that stands for several."""
     words = [LABELS[name] for name in names]
     return words[0] + beside if len(words) == 1 else f"{' = '.join(words)}{beside}"
 

@@ -55,7 +55,7 @@ class FieldPanel:
 
 @dataclass(frozen=True)
 class ColourScale:
-    """What a scale is of, its bands, and their colours."""
+    """Label of a scale, its bands, and their colours."""
 
     label: str
     bands: np.ndarray  # ascending, in equal steps

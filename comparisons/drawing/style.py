@@ -172,13 +172,13 @@ def beside_bar(axes: "Axes", x: float, y: float, text: str) -> None:
 def whisker(
     axes: "Axes", x: float, y: float, reach: tuple[float, float], thick: float = 1.4, cap: float = 3
 ) -> None:
-    """What may be wrong with a bar's end, so far to the left and to the right."""
+    """Draw how far a bar's end may be wrong to the left and to the right."""
     look = {"elinewidth": thick, "capsize": cap, "color": "#000000", "fmt": "none"}
     axes.errorbar(x, y, xerr=[[reach[0]], [reach[1]]], **look)
 
 
 def power_of_ten(power: int) -> str:
-    """As text: matplotlib's own labels of powers are formulas, which it takes a parser for."""
+    """Power of ten as text: matplotlib's own labels are formulas, which it takes a parser for."""
     return "10" + str(power).translate(SUPERSCRIPT)
 
 
@@ -194,7 +194,7 @@ def svg(drawn: "Figure") -> str:
 
 
 def svgs(draws: "Mapping[str, Callable[[], Figure]]") -> dict[str, str]:
-    """What is drawn as SVG, by file name; without what cannot be drawn."""
+    """Drawings as SVG, by file name; without those that fail."""
     with drawing():
         made = {
             name: attempted(name, lambda draw=draw: svg(draw())) for name, draw in draws.items()

@@ -63,7 +63,7 @@ def in_its_unit(figure: Figure, quantities: Mapping[str, Quantity]) -> str:
 
 
 def in_context(hertz: "HertzContact", quantities: Mapping[str, Quantity]) -> Below:
-    """Of a value what it is over that of the smooth contact, or else where it stands."""
+    """Line below a value: what it is over that of the smooth contact, or else where it is."""
 
     def below(figure: Figure) -> str:
         over, ends = quantities[figure.quantity].over, figure.place or ()
@@ -150,8 +150,8 @@ def _allowed(figure: Figure, unit: str) -> str:
 def facts_of(
     figures: Sequence[Figure], quantities: Mapping[str, Quantity], names: Mapping[str, str] = {}
 ) -> list[tuple[str, str]]:
-    """What a table does not hold, as names and values: by whom, in the words of `names` if there
-    are any, and at which friction where there are several."""
+    """Names and values of facts that a table does not hold: by whom, in the words of `names` if
+    there are any, and at which friction where there are several."""
     known = _in_order(figures, quantities)
     several = len({figure.friction for figure in known} - {None}) > 1
     facts = []
@@ -173,9 +173,9 @@ def _named(name: str, source: str, at: Mapping[str, float]) -> str:
 
 
 def line_of(figures: Sequence[Figure], quantities: Mapping[str, Quantity]) -> str:
-    """What is judged in a sentence: the first quantity, where all agree or hold, else how many do
+    """Sentence on what is judged: the first quantity, where all agree or hold, else how many do
     not, and which is farthest outside its tolerance or nearest to it. Where nothing is judged, the
-    first quantity by each source. Of several friction coefficients at the largest."""
+    first quantity by each source. Where there are several friction coefficients, at the largest."""
     known = _in_order(figures, quantities)
     judged = [figure for figure in known if figure.bounds is not None]
     if not known:

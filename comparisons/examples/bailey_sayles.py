@@ -67,7 +67,7 @@ class PressedSurface:
         return self.figure(quantity) / self.p0
 
     def depth(self) -> float:
-        """Of the largest τ1."""
+        """Depth of the largest τ1."""
         return self.figure("tau1_max_depth") / self.a
 
     def patches(self) -> np.ndarray:
@@ -138,8 +138,8 @@ def error_on_axis(smooth: PressedSurface) -> float:
 
 
 def error_below_samples(rough: PressedSurface) -> float:
-    """The same of strips as wide as the trace's samples, sliding, against finer pressures that are
-    joined linearly."""
+    """Largest error of strips as wide as the trace's samples, sliding, against finer pressures
+    that are joined linearly."""
     window = {"stress.depth": SAMPLE, "stress.half_range": 0.9, "stress.points": [600, 8]}
     fine, pitch = PressedSurface(rough.scene.name, window), SAMPLE / rough.a
     middles = pitch * np.arange(np.ceil(rough.x[0] / pitch), rough.x[-1] / pitch)
@@ -162,7 +162,7 @@ def bridging(smooth: PressedSurface) -> float:
 
 @dataclass(frozen=True)
 class Claim:
-    """What a figure of the paper shows, and the number that judges it."""
+    """Claim that a figure of the paper shows, and the number that judges it."""
 
     figure: str
     says: str
@@ -187,7 +187,7 @@ class Claim:
 def claims(
     smooth: PressedSurface, unrun: PressedSurface, run_in: PressedSurface, polished: PressedSurface
 ) -> Iterator[Claim]:
-    """In the order of the figures; those of every rough surface last."""
+    """Claims in the order of the figures; those of every rough surface last."""
     load = unrun.pressure.sum() * (unrun.x[1] - unrun.x[0]) / (0.5 * pi)
     middle, edge = (np.abs(smooth.along - x).argmin() for x in (0.0, 1.0))
     axis = [smooth.stress[name, 0.0][:, middle] for name in ("sx", "sz")]

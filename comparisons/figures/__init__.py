@@ -1,1 +1,1 @@
-"""What a result is: a figure with its meaning, its uncertainty and its verdict."""
+"""Figures of a result: each with its meaning, its uncertainty and its verdict."""

@@ -42,8 +42,8 @@ def is_within(value: float, uncertainty: float, low: float, high: float) -> bool
 
 
 def is_decided(difference: float, uncertainty: float, size: float, tolerance: float) -> bool:
-    """Whether a difference agrees or differs, whatever effects that change its reference by up to
-    `size` in all do to it; all relative."""
+    """True if it is known that a difference agrees or differs, whatever effects that change its
+    reference by up to `size` in all do to it; all relative."""
     if not size < 1.0:
         return False
     moved = (1.0 + abs(difference)) * size / (1.0 - size)
@@ -52,7 +52,7 @@ def is_decided(difference: float, uncertainty: float, size: float, tolerance: fl
 
 @dataclass(frozen=True)
 class Part:
-    """What a figure is made of: an effect, the interaction, an input; over the figure's scale."""
+    """Part of a figure: an effect, the interaction, an input; over the figure's scale."""
 
     name: str
     value: float
@@ -103,7 +103,7 @@ class Figure:
 
     @property
     def key(self) -> tuple[Hashable, ...]:
-        """What names it in a run."""
+        """Key that names the figure in a run."""
         at = tuple(sorted(self.at.items()))
         return self.study, self.quantity, self.source, self.against, at
 
@@ -134,7 +134,7 @@ class Figure:
 
     @property
     def largest_unknown(self) -> str:
-        """What the largest of the estimates is of; empty without any."""
+        """Name of the largest estimate; empty without any."""
         return max(self.unknown, key=self.unknown.get, default="")
 
     @property
@@ -156,7 +156,7 @@ class Figure:
         return f"{size} ± {percent(unsure)}"
 
     def words(self, unsure: float | None = None) -> str:
-        """The same with the verdict at its tolerance, where it is judged."""
+        """Difference ± uncertainty, with the verdict at its tolerance where it is judged."""
         said = self.sized(unsure)
         if self.bounds is None:
             return said
@@ -164,7 +164,7 @@ class Figure:
 
     @property
     def tolerance(self) -> float | None:
-        """Of what is judged to both sides alike."""
+        """Tolerance of a figure that is judged to both sides alike."""
         return None if self.bounds is None else self.bounds[1]
 
     @property
@@ -192,9 +192,9 @@ class Figure:
 
     @property
     def is_fixed(self) -> bool:
-        """Whether a finer solution leaves the verdict as it is, wherever in the uncertainty its
-        value comes to lie. Of inconclusive ones only where what is not modelled is by far the
-        larger unknown: else the figure itself is worth a finer solution."""
+        """True if a finer solution leaves the verdict as it is, wherever in the uncertainty its
+        value comes to lie. An inconclusive one is fixed only where what is not modelled is by far
+        the larger unknown: else the figure itself is worth a finer solution."""
         if self.verdict != "inconclusive":
             return True
         least = max(0.0, abs(self.relative) - self.numerical)
@@ -225,7 +225,7 @@ class Figures(tuple[Figure, ...]):
 
 
 def deciding(judged: Sequence[Figure]) -> Figure:
-    """Of those with the worst verdict the one farthest outside, or nearest to, its tolerance."""
+    """Figure, of those with the worst verdict, farthest outside, or nearest to, its tolerance."""
     return min(judged, key=lambda f: (WORST_FIRST.index(f.verdict), -f.reach / f.tolerance))
 
 
@@ -267,7 +267,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Statement:
-    """What a study says in words: a state, why something was skipped, a hint."""
+    """Statement of a study in words: a state, why something was skipped, a hint."""
 
     name: str
     text: str
@@ -277,7 +277,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class Findings:
-    """What one study has found in one run."""
+    """Findings of one study in one run."""
 
     figures: tuple[Figure, ...] = ()
     series: tuple[Series, ...] = ()

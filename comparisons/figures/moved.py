@@ -1,4 +1,4 @@
-"""What a repetition moved, and whether by more than is stated.
+"""Changes between a run and its repetition, and whether they are larger than is stated.
 
 In: the figures and series of a recorded run and of its repetition. Out: a row for each that moved.
 
@@ -23,7 +23,7 @@ Value = float | str | tuple | None
 
 @dataclass(frozen=True)
 class Item:
-    """What is compared: a value, and how far it may move, both over a scale."""
+    """Value that is compared, and how far it may move, both over a scale."""
 
     value: Value  # a number, a text, or the values of a column
     allowed: float = 0.0
@@ -58,7 +58,7 @@ class Movement:
 
 
 def movement(before: Mapping[str, Item], after: Mapping[str, Item]) -> Movement:
-    """Of items by their names."""
+    """Movement of items by their names."""
     rows, same, rounding = [], 0, 0
     for name, item in before.items():
         new = after[name].value if name in after else None
@@ -87,7 +87,7 @@ def items_of(findings: Mapping[str, Findings], other: Mapping[str, object]) -> d
 
 
 def named(study: str, name: str, source: str, at: Mapping[str, float]) -> str:
-    """As one would say it: contact.peak_pressure [half_plane, friction 0.1]."""
+    """Name as one would say it: contact.peak_pressure [half_plane, friction 0.1]."""
     of = ", ".join(filter(None, (source, *(f"{key} {value:g}" for key, value in at.items()))))
     return f"{study}.{name}" + (f" [{of}]" if of else "")
 
@@ -151,8 +151,8 @@ def _moved(name: str, item: Item, new: Value) -> Moved:
 
 
 def _of_columns(old: tuple, new: tuple) -> float | None:
-    """By what norm two columns differ, or by what length two sets of intervals; None where one is
-    longer, or has a value where the other has none."""
+    """Norm by which two columns differ, or length by which two sets of intervals do; None where one
+    is longer, or has a value where the other has none."""
     if old and isinstance(old[0], tuple):
         return _uncovered(old, new)
     if [value is None for value in old] != [value is None for value in new]:

@@ -31,7 +31,7 @@ _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a figure is of."""
+    """Quantity that a figure is the value of."""
 
     label: str  # in words, for tables
     unit: str = ""  # of the figure in SI; "" for ratios

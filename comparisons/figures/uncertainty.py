@@ -51,8 +51,8 @@ EDGE_FOUND = 0.05
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Of a figure, relative to its scale: bounds by cause, whose sum is the `total`; infinite where
-    one is unknown, and none of what is exact. `convergence` says how refinement went."""
+    """Uncertainty of a figure, relative to its scale: bounds by cause, whose sum is the `total`;
+    infinite where one is unknown, none where exact. `convergence` says how refinement went."""
 
     parts: Mapping[str, float] = field(default_factory=dict)
     convergence: Convergence | None = None
@@ -79,8 +79,8 @@ class Reading:
 def by_levels(
     values: Sequence[float], reading: Reading, repeated: tuple[float, float], unit: float
 ) -> Uncertainty:
-    """Of a figure by its values on the levels, coarse to fine, and by what far boundary and
-    increments of flow leave of it; a `unit` of these is the scale."""
+    """Uncertainty of a figure by its values on the levels, coarse to fine, and by what far boundary
+    and increments of flow leave of it; a `unit` of these is the scale."""
     known = grid_convergence(values, reading.order, reading.resolution * unit)
     domain, increments = (size / unit for size in repeated)
     left = max(known.uncertainty / unit, reading.least)
@@ -95,15 +95,15 @@ def iteration(*solutions: ContactSolution) -> float:
 
 
 def far_boundary(moved: float, first: float) -> float:
-    """In the figure's unit, by its values on the coarsest level with a block of half the size and
-    with the whole one."""
+    """Uncertainty by the far boundary, in the figure's unit, from its values on the coarsest level
+    with a block of half the size and with the full one."""
     return DOMAIN * abs(moved - first)
 
 
 def of_increments(values: Sequence[float]) -> float:
-    """In the figure's unit, by its values on the coarsest level with increments of the load that
-    halve, the last as on all levels. The error is of order one in their length; each change shows
-    how large, and the largest counts with the factor of safety of two grids."""
+    """Uncertainty by increments, in the figure's unit, from its values on the coarsest level with
+    increments that halve, the last as on all levels. The error is of order one in their length;
+    each change shows how large, and the largest counts with the factor of safety of two grids."""
     changes = np.abs(np.diff(values)) / 2.0 ** np.arange(len(values) - 2, -1, -1)
     return TWO_GRIDS * float(changes.max(initial=0.0))
 
@@ -124,7 +124,7 @@ def peak_resolution(pressure: np.ndarray) -> float:
 
 
 def difference_of_figures(figure: float, ratio: float, reference: float) -> float:
-    """Of (figure - reference) / reference, in a run's comparison and in the model error.
+    """Uncertainty of (figure - reference) / reference, in the comparison and in the model error.
 
     figure     uncertainty of the figure, relative to the reference
     ratio      figure over reference

@@ -1,4 +1,4 @@
-"""What each model says of the contact and of the stresses below it: the study every run has.
+"""Contact of each model and stresses below it: the study every run has.
 
 In: solved levels of each model. Out: figures of the finest one with their uncertainties, patches,
 and what the levels took."""
@@ -45,7 +45,7 @@ UNITS |= {"peak_memory": "byte", "expected_memory": "byte"}
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
-    """Of every model at every friction coefficient."""
+    """Figures of every model at every friction coefficient."""
     figures, series, statements = [], [], []
     for name in solved.runs:
         for case in solved.cases:

@@ -1,4 +1,4 @@
-"""What normal-tangential coupling changes in the half-plane's figures.
+"""Changes of the half-plane's figures by normal-tangential coupling.
 
 Sliding traction on bodies of different elastic constants also moves their surfaces normally, by
 friction times Dundurs' beta (`analytic.operators.tangential`). The published method neglects this.
@@ -46,7 +46,7 @@ BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 @dataclass(frozen=True)
 class Coupling:
-    """What it changes at one friction coefficient."""
+    """Changes by coupling at one friction coefficient."""
 
     friction: float
     figures: dict[str, float] = field(default_factory=dict)  # with it [SI], by quantity
@@ -58,8 +58,8 @@ class Coupling:
 
 
 def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
-    """Of the half-plane as far as it is refined, one a friction coefficient, computed once; none
-    where there is no coupling."""
+    """Changes of the half-plane as far as it is refined, one a friction coefficient, computed once;
+    none where there is no coupling."""
     if not solved.plan.coupling:
         return ()
     levels = len(solved.runs["half_plane"].levels)
@@ -69,7 +69,7 @@ def coupled(solved: Solved, tasks: Tasks) -> tuple[Coupling, ...]:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    """Of every friction coefficient. A change is as uncertain as the half-plane's figure that
+    """Changes by friction coefficient. A change is as uncertain as the half-plane's figure that
     changes, a shift as the contact's length, a norm as the worst."""
     changed, known = coupled(solved, tasks), before[contact.NAME].figures
     figures, series, said = [], [], []

@@ -81,7 +81,7 @@ def judged_by(
 
 
 def judged(model: Solution, problem: Problem, against: Solution | None = None) -> dict[str, Figure]:
-    """By quantity: the model's figure [SI]; or (model - other) / other, judged where the scene has
+    """Figures by quantity: the model's [SI]; or (model - other) / other, judged where the scene has
     a tolerance. `problem` is that of the case."""
     both = [model] if against is None else [model, against]
     finest = [one.finest for one in both]
@@ -172,7 +172,7 @@ class QuantitiesOfInterest:
 
 
 def quantities_of(level: Level, problem: Problem) -> QuantitiesOfInterest:
-    """Of a solved level; `problem` is the one that it solves."""
+    """Quantities of a solved level; `problem` is the one that it solves."""
     x = level.grid.x if level.material is None else level.material
     cell, pressure = np.searchsorted(problem.asperities, x), level.solution.pressure
     peaks = [
@@ -241,9 +241,9 @@ def left_by_crest(name: str, level: Level) -> float:
 
 
 def formal_order(name: str, levels: Sequence[Level], problem: Problem) -> float:
-    """Of a quantity under refinement; on linear elements none is above 1. Where friction brings a
-    largest stress to the surface, there it stands at an end of contact, next to which stresses go
-    with the square root of the distance: half an order, whatever the elements."""
+    """Formal order of a quantity under refinement; on linear elements none is above 1. Where
+    friction brings a largest stress to the surface, there it stands at an end of contact, next to
+    which stresses go with the square root of the distance: half an order, whatever the elements."""
     key = EXTREMES.get(name)
     if key is not None:
         depths = (level.stress.extremes[key].z for level in levels)

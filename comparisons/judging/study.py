@@ -90,7 +90,7 @@ def unsolved(problem: Problem, plan: Plan) -> Solved:
 
 
 class Found:
-    """What the studies of a run have found, and what it answers for by that."""
+    """Findings of a run's studies, and the figures that it answers for."""
 
     findings: Mapping[str, Findings]  # by the study's name, in the order in which they are shown
     frictions: Sequence[float]  # the scene's coefficients
@@ -102,7 +102,7 @@ class Found:
 
     @cached_property
     def judged(self) -> Figures:
-        """What the run answers for."""
+        """Figures that the run answers for."""
         judged = (figure for figure in self.figures if figure.bounds is not None)
         beside = {LADDER, COMPARISON} if self.compared.of(study=LAYERED) else {LADDER}
         return Figures(figure for figure in judged if figure.study not in beside)
@@ -177,7 +177,7 @@ class Run(Found):
         return self.solved.runs
 
     def data(self, study: str) -> object | None:
-        """What the pictures of a study are drawn from; None where the run has not done it."""
+        """Data that the pictures of a study are drawn from; None where the run has not done it."""
         return self.findings[study].data if study in self.findings else None
 
     def levels(self, friction: float) -> dict[str, Level]:
@@ -242,7 +242,7 @@ class Study:
 def studied(
     studies: tuple[Study, ...], solved: Solved, before: dict[str, Findings], tasks: "Tasks"
 ) -> dict[str, Findings]:
-    """What earlier studies have found `before`, and each of these in turn."""
+    """Findings of earlier studies, `before`, and of each of these in turn."""
     for study in studies:
         if study.applies(solved):
             why_not = study.needs(solved)

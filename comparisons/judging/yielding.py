@@ -74,7 +74,7 @@ LEVEL = 1e-6  # of the trace's height: summits that spread less are all as high
 
 @dataclass(frozen=True)
 class FlowAssessment:
-    """What elastic bodies bear in a scene, against what its body does; limits in Pa."""
+    """Stresses that elastic bodies bear in a scene, against what its body does; limits in Pa."""
 
     scene: Scene
     # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
@@ -127,7 +127,7 @@ class FlowAssessment:
 
     @property
     def beyond_doubt(self) -> str:
-        """The same as a sentence without its full stop; empty if nothing is exceeded."""
+        """Sentence on the limit that is exceeded, without its full stop; empty if there is none."""
         if (name := self.exceeded) is None:
             return ""
         shear, limit = (with_unit(size, "Pa", 2) for size in (self.worst.value, self.limits[name]))
@@ -196,7 +196,7 @@ def _figures_of_flow(problem: Problem, wholes: tuple[Level, ...]) -> list[Figure
 
 
 def flow_assessment(solved: Solved) -> FlowAssessment:
-    """Of the half-plane where it was solved, else of the finite elements."""
+    """Assessment of the half-plane where it was solved, else of the finite elements."""
     scene = solved.problem.scene
     yield_stress, hardness = scene.body.yield_stress, scene.body.hardness
     flow = "plastic" if scene.finite_element.plastic else "elastic" if hardness is None else "cap"

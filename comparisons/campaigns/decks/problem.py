@@ -1,4 +1,4 @@
-"""What a deck of any code is written from: bodies on the project's own meshes, load and kinematics.
+"""Problem that a deck of any code is written from: the project's own meshes, load and kinematics.
 
 Millimetre, newton and megapascal. x along the surface, y up, out of the rough body; the origin is
 on the mean line under the roller's centre.
@@ -67,7 +67,7 @@ class DeckBody:
 
 @dataclass(frozen=True)
 class DeckProblem:
-    """What a deck describes."""
+    """Bodies, load and kinematics that a deck describes."""
 
     problem: Problem  # the scene's
     # rough, roller: bodies; the held nodes of the roller move as one

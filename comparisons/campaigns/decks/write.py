@@ -120,7 +120,7 @@ def calculix_files(deck: DeckProblem) -> dict[str, str]:
 
 
 def _held(deck: DeckProblem) -> tuple[float, ...]:
-    """Of a scene with [partial_slip] the friction coefficient and its tangential loads [N/mm]."""
+    """Friction coefficient and tangential loads [N/mm] of a scene with [partial_slip]."""
     scene = deck.problem.scene
     if scene.partial_slip is None:
         return ()

@@ -152,7 +152,7 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
 
 
 def _values(asked: Sections) -> tuple[Sections, dict[str, str]]:
-    """What the scene says beside its profile, and remarks by field on what is an example of it.
+    """Sections of the scene beside its profile, and remarks by field on what is an example.
     The roller's radius, if it is none of `asked`, is left open."""
     roller, body, load = (dict(asked.get(name, {})) for name in ("roller", "body", "load"))
     examples = {} if "radius" in roller else {"radius": EXAMPLE}

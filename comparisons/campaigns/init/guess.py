@@ -104,7 +104,7 @@ def _completed(path: Path, chosen: ProfileFields) -> MeasuredProfile:
 
 
 def _opened(path: Path, chosen: ProfileFields) -> Opened:
-    """What the file holds, with guessed columns or channel where it has several."""
+    """Table or topography in the file, with guessed columns or channel where it has several."""
     fields = chosen.fields
     how = {name: fields[name] for name in ("columns", "channel") if name in fields}
     how |= {"one_column": "spacing" in fields, "is_map": not fields.keys().isdisjoint(LINES)}

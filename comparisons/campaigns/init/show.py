@@ -1,4 +1,4 @@
-"""What `crosscheck init` has made, as JSON, as a table, and the trace in one picture."""
+"""Output of `crosscheck init`: as JSON, as a table, and the trace in one picture."""
 
 import json
 from dataclasses import dataclass

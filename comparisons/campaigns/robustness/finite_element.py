@@ -120,13 +120,13 @@ def solution_figures(
 
 
 def problem_with(tables: Tables) -> Problem:
-    """Of the ordinary scene with other fields."""
+    """Problem of the ordinary scene with other fields."""
     changed = {name: ORDINARY.get(name, {}) | fields for name, fields in tables.items()}
     return problem_of(Scene.of(ORDINARY | changed, Origin("stability", source="stability")))
 
 
 def solved(tables: Tables, refinement: int = 0) -> tuple[Problem, Level]:
-    """The same on the coarsest level, or on one `refinement` levels finer."""
+    """Problem and its coarsest level, or the one `refinement` levels finer."""
     problem = problem_with(tables)
     model = scene_model("finite_element", problem, fields=True)
     level, *_ = model.solve(Here(), problem, 1 + refinement).values()
@@ -139,13 +139,13 @@ def ordinary_level() -> Level:
 
 
 def level_figures(level: Level, *figures: Figure, most: int = MOST_STEPS) -> CaseFigures:
-    """Of a level, its steps beside those of the ordinary scene."""
+    """Figures of a level, its steps beside those of the ordinary scene."""
     ordinary = ordinary_level().solution.iterations["steps"]
     return solution_figures(level.solution, *figures, most=most, ordinary=ordinary)
 
 
 def hertz_figures(peak: float = PEAK, **tables: dict) -> CaseFigures:
-    """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
+    """Figures of the ordinary scene with other fields, whose peak may be wrong by `peak`."""
     problem, level = solved(tables)
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return level_figures(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
@@ -204,7 +204,7 @@ def in_units(metre: float, pascal: float) -> Tables:
 
 
 def unit_figures(metre: float, pascal: float) -> CaseFigures:
-    """In other units the same triangles and the same figures."""
+    """Figures in other units: the same triangles must give the same."""
     usual = ordinary_level()
     _, level = solved(in_units(metre, pascal))
     length = level.contact_length / usual.contact_length

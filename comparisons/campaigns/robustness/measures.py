@@ -1,4 +1,4 @@
-"""What contacts at their extremes are held to: contact conditions, other solvers, their cost."""
+"""Measures of contacts at their extremes: contact conditions, other solvers, their cost."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

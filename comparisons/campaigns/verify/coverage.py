@@ -90,7 +90,7 @@ class Pair:
 
     @property
     def error(self) -> float:
-        """The same of the finest level."""
+        """Error of the finest level."""
         return self.errors[-1]
 
     @property

@@ -58,13 +58,13 @@ class Effect:
     beyond: Callable[[Scene], float] | None = None  # [m] size of an unbounded body that lacks it
 
     def is_in(self, scene: Scene) -> bool:
-        """Whether a scene's finite elements have all that gives it."""
+        """True if a scene's finite elements have all that gives the effect."""
         switches = {name: getattr(scene.finite_element, name) for name in self.sets}
         parts = [attrgetter(name)(scene) is not None for name in self.takes]
         return switches == self.sets if switches else any(parts)
 
     def given_by(self, scene: Scene) -> dict[str, object]:
-        """What a scene has of it, by field: a plainer one is given it so."""
+        """Fields of a scene that give it the effect: a plainer scene is given it so."""
         sets = {f"finite_element.{name}": value for name, value in self.sets.items()}
         return sets | {name: attrgetter(name)(scene) for name in self.takes}
 
@@ -139,7 +139,7 @@ UNKNOWN = tuple(name for name, effect in EFFECTS.items() if not (effect.sets or 
 
 
 def estimates(problem: Problem, shown: Shown) -> dict[str, Sizes]:
-    """By effect and quantity, without those of no size; one is infinite where nothing bounds it."""
+    """Estimates by effect and quantity, without those of no size; infinite where unbounded."""
     sized = {}
     for name, effect in EFFECTS.items():
         sizes = effect.estimate(problem, shown)
@@ -174,7 +174,7 @@ def with_effects(scene: Scene, names: Iterable[str]) -> Scene:
 
 
 def fields_with(scene: Scene, names: Iterable[str]) -> dict[str, object]:
-    """What gives a scene the named effects and no others, by field."""
+    """Fields that give a scene the named effects and no others."""
     switches = {name for effect in EFFECTS.values() for name in effect.sets}
     sets = {name: FiniteElementSection.model_fields[name].default for name in switches}
     sets |= {"coupled": scene.load.coupled}
@@ -193,8 +193,8 @@ def model_with(
     friction: float | None = None,
     quadratic: bool = False,
 ) -> Model:
-    """With the effects and no others. An unbounded body is larger than the scene's, whose size it
-    lacks.
+    """Model with the effects and no others. An unbounded body is larger than the scene's, whose
+    size it lacks.
 
     friction   the coefficient that shapes its pressures; None: they are the same for all
     quadratic  its elements are those that finite deformation takes"""

@@ -34,7 +34,7 @@ NEAR_SURFACE = ("tau1_max", "tau1_max_depth", "txz_max_abs")
 
 @dataclass(frozen=True)
 class Shown:
-    """What the half-plane shows of a contact, by which effects are estimated."""
+    """Contact as the half-plane shows it, by which effects are estimated."""
 
     peak: float  # [Pa] largest pressure
     mean: float  # [Pa] that the load stands under on average
@@ -76,7 +76,7 @@ def finite_size(problem: Problem, shown: Shown) -> Sizes:
 
 
 def coating(problem: Problem, shown: Shown) -> Sizes:
-    """As much as the stiffness differs; of the contact's figures the deeper it reaches."""
+    """Change as large as the stiffness differs; of the contact's figures the deeper it reaches."""
     coating, body = problem.scene.coating, problem.scene.body.material
     if coating is None:
         return {}
@@ -187,8 +187,8 @@ OF_ASPERITIES, LAW_OF_DEPTH = 1.75, 1.3
 
 
 def law_of_elasticity(problem: Problem, shown: Shown) -> Sizes:
-    """Of the bodies whose law is not known, each by its share of what closes the gap; of a coating
-    by its depth."""
+    """Changes by the bodies whose law is not known, each by its share of what closes the gap; of a
+    coating by its depth."""
     scene = problem.scene
     strained = 0.0
     for law in open_laws(scene):
@@ -233,13 +233,13 @@ def coupling(problem: Problem, shown: Shown) -> Sizes:
 
 
 def _coupled(size: float) -> Sizes:
-    """Of surfaces that traction moves by `size` = mu beta."""
+    """Changes by surfaces that traction moves by `size` = mu beta."""
     sizes = _equal(COUPLING_SQUARE * size**2)
     return sizes | {name: factor * size for name, factor in COUPLING_OF_STRESS.items()}
 
 
 def _layered_beta(problem: Problem) -> float:
-    """In place of Dundurs' beta for a layer or a coating: that of the coating by its depth, and
+    """Dundurs' beta of a layer or a coating, in its stead: that of the coating by its depth, and
     that of the body alone by the nearness of its far side."""
     scene, half_width = problem.scene, problem.hertz.half_width
     estimate = 0.0

@@ -1,4 +1,4 @@
-"""What the law of elasticity may change, where the scene leaves it open.
+"""Changes by the law of elasticity, where the scene leaves it open.
 
 In: a scene whose whole model deforms finitely. Out: the laws with which the whole is solved once
 more on its coarsest level, and what they say of every solid that may be meant.
@@ -49,7 +49,7 @@ def point_of(law: Law, material: Material) -> np.ndarray:
 
 @dataclass(frozen=True)
 class OpenLaw:
-    """What is not known of the law of one body, or of both where they are of one solid."""
+    """Law that is not known of one body, or of both where they are of one solid."""
 
     material: Material  # with the law that the whole has
     solids: tuple[tuple[str, Law], ...]  # that may be meant, with the body's own moduli
@@ -81,11 +81,11 @@ class OpenLaw:
 
     @property
     def is_scatter(self) -> bool:
-        """Of measured constants; else the solids that may be meant."""
+        """True for measured constants; else the solids that may be meant."""
         return bool(self.shares)
 
     def scatter(self, changes: Iterable[float]) -> float:
-        """What the standard errors change together, for 95 %, by what the probes change."""
+        """Change by all standard errors together, for 95 %, from the probes' changes."""
         return COVERED * math.hypot(*map(operator.mul, self.shares, changes))
 
     @property
@@ -150,7 +150,7 @@ def _scattered(material: Material) -> OpenLaw:
 
 @dataclass(frozen=True)
 class LawSpread:
-    """What the law changes in the whole's figure, relative to it."""
+    """Changes of the whole's figure by the law, relative to it."""
 
     middle: float = 0.0  # of the published solids, against the law that the whole has
     half: float = 0.0  # of their range, about its middle
@@ -158,7 +158,7 @@ class LawSpread:
 
 
 def law_spread(laws: tuple[OpenLaw, ...], changes: Mapping[tuple[int, str], float]) -> LawSpread:
-    """By what the probes change on the coarsest level, relative, by place in `laws` and probe."""
+    """Spread from the probes' relative changes on the coarsest level, by law's index and probe."""
     low = high = scatter = 0.0
     for number, law in enumerate(laws):
         mine = {probe: changes[number, probe] for probe in law.probes}

@@ -21,7 +21,7 @@ SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolu
 
 
 def sampling_estimate(solved: Solved, tasks: Tasks) -> tuple[Sizes, str]:
-    """By quantity, what the sampling may change, and words on the surface between samples."""
+    """Largest change by the sampling, by quantity, and words on the surface between samples."""
     sizes, info = sampling_changes(solved, tasks), solved.problem.surface.info
     levels = solved.runs["half_plane"].levels
     samples, spacing = levels[-1].contact_length / info.spacing, with_unit(info.spacing, "m", 3)
@@ -33,7 +33,7 @@ def sampling_estimate(solved: Solved, tasks: Tasks) -> tuple[Sizes, str]:
 
 
 def sampling_changes(solved: Solved, tasks: Tasks) -> Sizes:
-    """By quantity, the largest relative change from half the samples, of the half-plane's third
+    """Largest relative change, by quantity, from half the samples, of the half-plane's third
     level, or the last before it."""
     sizes: Sizes = {}
     for first, key in enumerate(announce_sampling(solved, tasks)):

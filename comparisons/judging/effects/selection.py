@@ -37,7 +37,7 @@ ASKED = 'budget.effects = "all" computes it'
 
 @dataclass(frozen=True)
 class EffectSelection:
-    """What becomes of every effect."""
+    """Decision on every effect."""
 
     contained: frozenset[str]  # the scene's own finite elements have it
     added: frozenset[str]  # computed beside, for the verdict
@@ -61,7 +61,7 @@ class EffectSelection:
         return frozenset(self.estimates) - larger
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":
-        """The same without some of the added effects, for a reason; other laws of elasticity take
+        """Selection without some of the added effects, for a reason; other laws of elasticity take
         finite deformation."""
         added, laws = self.added - names, self.laws
         if laws and (LAW in names or FINITE not in self.contained | added):
@@ -70,14 +70,14 @@ class EffectSelection:
         return replace(self, added=added, impossible=impossible, laws=laws)
 
     def flowing_finitely(self) -> "EffectSelection":
-        """The same with finite strain of what flows, which could not be computed before."""
+        """Selection with finite strain of what flows, which could not be computed before."""
         impossible = {name: why for name, why in self.impossible.items() if name != FINITE}
         return replace(self, added=self.added | {FINITE}, impossible=impossible)
 
     def estimated(
         self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
     ) -> "EffectSelection":
-        """The same with the estimate of an effect that is not computed for a reason, unless it
+        """Selection with the estimate of an effect that is not computed for a reason, unless it
         turns out to be negligible."""
         impossible = {other: why for other, why in self.impossible.items() if other != name}
         impossible |= {} if is_negligible(sizes, tolerances) else {name: why}
@@ -85,7 +85,7 @@ class EffectSelection:
         return replace(self, impossible=dict(sorted(impossible.items())), estimates=estimates)
 
     def account(self, name: str) -> tuple[str, str]:
-        """What became of an effect, and why."""
+        """Status of an effect, and its reason."""
         if name in self.contained:
             return "contained", "the scene's own finite elements have it"
         if name == LAW and self.laws:
@@ -103,7 +103,7 @@ class EffectSelection:
         return "does not apply", "it does not apply, or has no size"
 
     def not_modelled(self, quantity: str) -> Sizes:
-        """By name, estimates of the effects on a quantity that no model has."""
+        """Estimates, by name, of the effects on a quantity that no model has."""
         unknown = self.negligible | self.impossible.keys()  # not those of `laws`
         return {
             name: sizes[quantity]
@@ -113,7 +113,7 @@ class EffectSelection:
 
 
 def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
-    """As the half-plane selects them as far as it is refined, decided once."""
+    """Selection by the half-plane as far as it is refined, decided once."""
     levels = len(solved.runs["half_plane"].levels)
     return tasks.held("effects", levels, lambda: selected_effects(solved, coupled(solved, tasks)))
 
@@ -121,7 +121,7 @@ def effects_of_run(solved: Solved, tasks: Tasks) -> EffectSelection:
 def selected_effects(
     solved: Solved, couplings: tuple[Coupling, ...], known: Mapping[str, Sizes] = {}
 ) -> EffectSelection:
-    """As the half-plane selects them, and what is `known` of effects that were computed."""
+    """Selection by the half-plane, and by what is `known` of effects that were computed."""
     finest = (case.runs["half_plane"].finest for case in solved.cases)
     pressure = max((level.solution.pressure for level in finest), key=np.max)
     problem, patches, no_time = solved.problem, solved.runs["half_plane"].levels[0].patches, None
@@ -173,7 +173,7 @@ def select_effects(
 
 
 def is_negligible(sizes: Sizes, tolerances: Mapping[str, float]) -> bool:
-    """Whether an effect moves no judged figure by a share of its tolerance that matters."""
+    """True if an effect moves no judged figure by a share of its tolerance that matters."""
     return all(
         sizes.get(quantity, 0.0) <= SHARE_OF_TOLERANCE * min(tolerance, USUAL)
         for quantity, tolerance in tolerances.items()

@@ -43,7 +43,7 @@ class Candidate:
 
 
 def _by_operator(problem: Problem, effects: Effects, peak: float) -> Effects:
-    """What an operator and a gap can have, and a cap where the body yields."""
+    """Effects that an operator and a gap can have; with `CAP` where the body yields."""
     scene, body = problem.scene, problem.scene.body
     if scene.periodic or why_no_stresses(problem) is not None:
         return NONE
@@ -54,8 +54,8 @@ def _by_operator(problem: Problem, effects: Effects, peak: float) -> Effects:
 
 
 def _deformed(problem: Problem, effects: Effects, peak: float) -> Effects:
-    """What the half-plane has on its deformed surface: what is quadratic there is known of elastic
-    half-planes alone. Friction moves these surfaces as it does the whole's."""
+    """Effects that the half-plane has on its deformed surface: what is quadratic there is known of
+    elastic half-planes alone. Friction moves these surfaces as it does the whole model's."""
     scene = problem.scene
     bounded = is_layered(scene) or scene.periodic or scene.body.width is not None
     if "finite_strain" not in effects or "plastic_flow" in effects or bounded:

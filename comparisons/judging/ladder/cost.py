@@ -228,9 +228,8 @@ def _errors(
 
 
 def cheapest(rows: list[dict], aim: Mapping[str, float], floors: Mapping[str, float]) -> list[dict]:
-    """Of each kind of model the row of the fewest seconds that meets the tolerances not by chance:
-    all finer ones of its model do, and the finest of those with its assumptions. None where none
-    does."""
+    """Row, of each kind of model, of the fewest seconds that meets the tolerances not by chance:
+    all finer ones of its model do, and the finest of those with its assumptions; or none."""
 
     def meets(row: dict) -> bool:
         return all(row[name] + floors[name] <= most for name, most in aim.items())
@@ -261,7 +260,7 @@ def table(findings: Findings) -> TextTable:
 
 
 def notes(findings: Findings) -> list[str]:
-    """What errors are measured by, what is left out, and the cheapest for each tolerance."""
+    """Notes: what errors are measured by, what is left out, the cheapest for each tolerance."""
     said = [f"{one.name}: {one.text}" for one in findings.statements]
     chosen = findings.table(CHEAPEST).rows()
     return said + [f"cheapest for {row['aim']}: {row['setting']}" for row in chosen]

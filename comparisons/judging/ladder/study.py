@@ -131,7 +131,7 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
 
 
 def _solved(solved: Solved, budget: ErrorBudget) -> Iterator[tuple]:
-    """What the run has for its verdict, and a closed form: what a `_rung` is made of."""
+    """Arguments of `_rung` for all that the run has for its verdict, and for a closed form."""
     own, every, none = budget.selection.contained, budget.solutions, frozenset()
     if (smooth := closed_form(solved.problem)) is not None:
         began = perf_counter()
@@ -184,7 +184,7 @@ def _rung(
     took: tuple[float, float],
     errors: Callable[[Solutions], Iterable[Figure]],
 ) -> Rung:
-    """With those errors that are judged, of each case; `took` seconds, and memory [bytes]."""
+    """Rung with those errors that are judged, of each case; `took` seconds, and memory [bytes]."""
     known = budget.selection, solved.problem.scene.tolerances
     mine = {"study": LADDER, "source": name, "parts": (), "place": None}
     every = (figure_of(error, *known) for one in budget.solutions for error in errors(one))

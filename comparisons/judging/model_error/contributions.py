@@ -1,4 +1,4 @@
-"""What each effect contributes, alone and jointly, on each level: differences of solutions.
+"""Contributions of each effect, alone and jointly, on each level: differences of solutions.
 
 With F(S) the finite elements' solution with the effects S, W all of them, k finite deformation,
 c normal-tangential coupling, 0 none:
@@ -54,7 +54,7 @@ class SplitVariants:
 
     @property
     def held_nearer(self) -> dict[str, Model]:
-        """By effect of size, what lacks it with its far boundary at half the distance."""
+        """Models, by effect of size, that lack it, with their far boundary at half the distance."""
         sizes = {name: pair[1] for name, pair in self.pairs.items() if EFFECTS[name].beyond}
         return {name: replace(without, half_block=True) for name, without in sizes.items()}
 
@@ -80,7 +80,7 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
         return model_with(problem, effects, friction if shaped else None, quadratic)
 
     def grown(effects: frozenset[str]) -> frozenset[str]:
-        """With what nonlinear bodies cannot be without."""
+        """Add what nonlinear bodies cannot be without."""
         return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
 
     nothing, pairs = frozenset(), {}

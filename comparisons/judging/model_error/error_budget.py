@@ -101,9 +101,9 @@ def _unsplit(row: Figure) -> Figure:
 
 
 def _idle_flow(budget: ErrorBudget, tolerances: Mapping[str, float]) -> Sizes | None:
-    """What flow changes, by itself and with the other effects, where that moves no judged figure by
-    a share of its tolerance that matters: the whole is then one that does not flow. Nothing where
-    the wholes have no plastic strain; else None."""
+    """Change by flow, alone and with the other effects, where it moves no judged figure by a share
+    of its tolerance that matters: the whole is then one that does not flow. Nothing where the
+    wholes have no plastic strain; else None."""
     if all(level.plastic_strain == 0.0 for level in budget.wholes):
         return {}
     sizes: dict[str, float] = {}

@@ -54,7 +54,7 @@ def figure_of(error: Figure, selection: EffectSelection, tolerance: Mapping[str,
 
 @dataclass(frozen=True)
 class Solutions:
-    """What was solved of one case, and the model errors that follow."""
+    """Solutions of one case, and the model errors that follow."""
 
     case: Case
     split: SplitVariants  # what is solved
@@ -67,7 +67,7 @@ class Solutions:
 
     @cached_property
     def effects(self) -> dict[str, list[QuantitiesOfInterest]]:
-        """By effect that every split level has, what it changes by itself, by level."""
+        """Changes by each effect alone that every split level has, by level."""
         pairs = self.split.pairs.items()
         levels = self.history[: self.levels_split]
         return {
@@ -78,7 +78,7 @@ class Solutions:
 
     @cached_property
     def interaction(self) -> list[QuantitiesOfInterest]:
-        """What the effects change jointly beyond the sum of these, by split level."""
+        """Joint change by the effects beyond the sum of these, by split level."""
         levels = self.history[: self.levels_split]
         joint = [level[self.split.whole] - level[self.split.nothing] for level in levels]
         return [reduce(sub, changes) for changes in zip(joint, *self.effects.values(), strict=True)]
@@ -89,12 +89,12 @@ class Solutions:
 
     @cached_property
     def wholes(self) -> list[QuantitiesOfInterest]:
-        """With every effect."""
+        """Figures with every effect."""
         return self.solved(self.split.whole)
 
     @cached_property
     def missing(self) -> list[QuantitiesOfInterest]:
-        """What the scene's own finite elements lack of the wholes."""
+        """Part of the wholes that the scene's own finite elements lack."""
         return list(map(sub, self.wholes, self.solved(self.split.of_scene)))
 
     @cached_property
@@ -127,14 +127,14 @@ class Solutions:
 
     @cached_property
     def unsolved(self) -> float:
-        """What the solvers' iterations leave, relative."""
+        """Relative error that the solvers' iterations leave."""
         number = len(self.history) - 1
         pairs = ((run.finest, run.levels[number]) for run in self.case.runs.values())
         return iteration(*(level.solution for pair in pairs for level in pair))
 
     @cached_property
     def resolutions(self) -> dict[str, float]:
-        """By quantity, what the pressure elements of the effects' finest level cannot resolve."""
+        """Relative resolution, by quantity, of pressure elements on the effects' finest level."""
         level = self.case.runs["finite_element"].levels[len(self.history) - 1]
         return {
             "contact_length": relative_resolution(level, level),
@@ -217,7 +217,7 @@ class Solutions:
         )
 
     def _spread(self, name: str, at: int) -> LawSpread:
-        """Of the whole's law of elasticity, by the other ones that it has solutions with."""
+        """Spread by the whole's law of elasticity, from the others that it has solutions with."""
         first, laws, whole = self.history[0], self.split.laws, self.wholes[0]
         if not self.laws or not first.keys() >= set(laws.values()):
             return LawSpread()
@@ -234,11 +234,11 @@ class Solutions:
         return figure, self._scale(figure, name)
 
     def _scale(self, figure: float, name: str) -> float:
-        """What differences are measured by [SI]: it, or the Hertz contact's where it vanishes."""
+        """Scale of differences [SI]: the figure, or the Hertz contact's where it vanishes."""
         return abs(figure) or QUANTITIES[name].scale(self.case.problem.hertz)
 
     def _order(self, name: str) -> float:
-        """Of convergence under refinement."""
+        """Order of convergence under refinement."""
         finest = [run.finest for run in self.case.runs.values()]
         return formal_order(name, finest, self.case.problem)
 
@@ -290,7 +290,7 @@ class Solutions:
         return of_increments([float(value.figures[name][at] / scale) for value in self.longer])
 
     def _of_competitors(self, name: str, numerical: float, at: int) -> float:
-        """What asperities that may have the largest value add to the uncertainty of a figure [SI].
+        """Uncertainty of a figure by asperities that may have the largest value [SI].
 
         numerical  of the figure, relative"""
         largest, whole = LARGEST[name], self.whole.figures
@@ -313,8 +313,8 @@ class Solutions:
     def _jump(
         self, name: str, numerical: float, at: int
     ) -> tuple[float, tuple[float, float] | None]:
-        """What the half-plane's largest value exceeds its value at the whole's asperity by, and x
-        [m] of its largest value and of the whole's, where these are no twin peaks, else None."""
+        """Excess of the half-plane's largest value over its value at the whole's asperity; x [m]
+        of its largest value and of the whole's, where these are no twin peaks, else None."""
         before = self.half_plane.leading(name)
         if before == at:
             return 0.0, None

@@ -40,7 +40,7 @@ NO_SOLUTION = ContactError, MeshError, FemError, InputError, np.linalg.LinAlgErr
 
 @dataclass(frozen=True)
 class ErrorBudget:
-    """What separates the half-plane from the whole model, and both from the surface."""
+    """Differences between the half-plane, the whole model and the surface."""
 
     selection: EffectSelection  # which effects were computed
     levels: int  # that the whole was taken to; 0 where it has no solution
@@ -59,7 +59,7 @@ class ErrorBudget:
 
     @property
     def seconds(self) -> float:
-        """What the effects took."""
+        """Seconds that the effects took."""
         return math.fsum(seconds for seconds, _ in self.took.values())
 
     def figures(self, tolerance: Mapping[str, float]) -> Figures:
@@ -75,7 +75,7 @@ class EffectRefinement:
     def __init__(
         self, scene: Solved, tasks: Tasks, selection: EffectSelection, rows: Iterable[Figure] = ()
     ) -> None:
-        """Of a scene that is solved by the half-plane, perhaps by its own finite elements, too;
+        """Begin with a scene that the half-plane solves, perhaps its own finite elements, too;
         `rows` are the judged comparison of both."""
         self.scene, self.problem, self.tasks, self.rows = scene, scene.problem, tasks, tuple(rows)
         # by variant and number of the level from 1: by friction; why there is no solution
@@ -144,12 +144,12 @@ class EffectRefinement:
                 self.failed[variant, number] = " ".join(str(error).split())
 
     def is_open(self, variant: Model, number: int) -> bool:
-        """Whether a level of a variant is yet to be solved."""
+        """True if a level of a variant is yet to be solved."""
         key = variant, number
         return variant not in self.own and key not in self.solved and key not in self.failed
 
     def solution(self, variant: Model | None, number: int, case: Case) -> QuantitiesOfInterest:
-        """Of a solved variant on a level, None for the scene's own finite elements."""
+        """Figures of a solved variant on a level, None for the scene's own finite elements."""
         if variant is None or variant in self.own:
             return quantities_of(case.runs["finite_element"].levels[number - 1], case.problem)
         return self.solved[variant, number][case.friction]
@@ -189,8 +189,8 @@ class EffectRefinement:
         )
 
     def _solve_wholes(self, most: int) -> tuple[int, str | None]:
-        """As many levels of the wholes as it takes; which further one is left out, as it cannot
-        change a verdict."""
+        """Solve as many levels of the wholes as it takes: how many, and which further one is left
+        out, as it cannot change a verdict."""
         for number in range(1, min(most, LEAST_LEVELS) + 1):
             self._solve_whole(number)
         if most >= LEAST_LEVELS:
@@ -227,7 +227,7 @@ class EffectRefinement:
             self.selection = self.selection.without(frozenset({LAW}), whys[0])
 
     def _solutions(self, levels: int) -> list[Solutions]:
-        """Of each case, what is solved so far on so many levels. The split is on those on which no
+        """Solutions of each case so far, on so many levels. The split is on those on which no
         variant is open."""
         taken = []
         for case, split in zip(self.scene.cases, self.splits, strict=True):
@@ -247,7 +247,7 @@ class EffectRefinement:
         return taken
 
     def _finest(self, one: Solutions) -> Level:
-        """Of the whole of a case."""
+        """Finest level of a case's whole model."""
         if one.split.whole in self.own:
             return one.case.runs["finite_element"].finest
         return self.finest[one.split.whole][one.case.friction]
@@ -257,13 +257,13 @@ class EffectRefinement:
         return [one.error(row) for one, row in known if row.friction == one.case.friction]
 
     def _are_fixed(self, errors: list[Figure]) -> bool:
-        """Whether a finer solution leaves every verdict as it is."""
+        """True if a finer solution leaves every verdict as it is."""
         known = self.selection, self.problem.scene.tolerances
         figures = (figure_of(error, *known) for error in errors)
         return all(figure.is_fixed for figure in figures if figure.bounds)
 
     def _model(self, variant: Model, number: int) -> Model:
-        """What solves a level of a variant; of a whole with its fields, as it may be the finest."""
+        """Model for a level of a variant; a whole has its fields: the level may be the finest."""
         if variant not in self.finest:
             return replace(variant, name=f"part-{variant.name}")
         return replace(variant, name=f"whole-{variant.name}", fields=number >= LEAST_LEVELS)

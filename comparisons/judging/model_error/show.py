@@ -61,7 +61,7 @@ def blocks(run: Run) -> list[Block]:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """What is not modelled, and which largest values stand at another asperity."""
+    """Lines on what is not modelled, and on largest values that stand at another asperity."""
     missing = not_modelled_line(run)
     said = [("not modelled", missing)] if missing else []
     if (strained := run.findings[MODEL_ERROR].said(TRUST)) is not None:
@@ -155,8 +155,8 @@ def law_range(error: Figure) -> str:
 
 
 def flow_taken(errors: Sequence[Figure]) -> str:
-    """What flow by itself takes off, or adds to, the half-plane's figures, where that is most of
-    their errors: a clause, or nothing."""
+    """Clause on what flow by itself takes off, or adds to, the half-plane's figures, where that is
+    most of their errors; else empty."""
     changes = []
     for error in errors:
         part = error.part(FLOW)
@@ -176,7 +176,7 @@ def _moved(error: Figure) -> str:
 
 
 def contributions_of(error: Figure) -> dict[str, float]:
-    """What a model error is made of, with its sign: an effect that raises the finite elements'
+    """Parts of a model error, with their signs: an effect that raises the finite elements'
     figure makes the half-plane's too low."""
     sizes = {}
     for part in error.parts:
@@ -186,7 +186,7 @@ def contributions_of(error: Figure) -> dict[str, float]:
 
 
 def contributions(run: Run, error: Figure) -> tuple[str, ...]:
-    """The same in words, the largest first; nothing where the error says nothing."""
+    """Parts of a model error in words, the largest first; nothing where the error says nothing."""
     if leaves_flow_out(run, error):
         return ()
     large = sorted(_large(contributions_of(error), error), key=lambda item: -abs(item[1]))
@@ -211,7 +211,7 @@ def not_modelled_line(run: Run) -> str:
 
 
 def effects_table(run: Run) -> TextTable:
-    """What became of each effect that the half-plane does not model."""
+    """Status of each effect that the half-plane does not model."""
     rows = []
     for row in run.findings[MODEL_ERROR].table("effects").rows():
         if row["status"] != "does not apply":
@@ -224,7 +224,7 @@ def effects_table(run: Run) -> TextTable:
 
 
 def _largest(run: Run, estimate: dict[str, float]) -> float:
-    """Of the estimates of an effect on what is judged, or on anything where nothing is."""
+    """Largest estimate of an effect on what is judged, or on anything where nothing is."""
     judged = set(run.problem.scene.tolerances) & set(estimate)
     return max(estimate[name] for name in judged or estimate)
 
@@ -240,13 +240,13 @@ class Waterfall:
 
 
 def waterfalls(run: Run) -> list[Waterfall]:
-    """Of what is judged, or of everything; coefficients of equal figures together."""
+    """Panels for what is judged, or everything; coefficients of equal figures together."""
     panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
     names = {error.quantity for error in run.model_errors or errors}
     shown = [e for name in QUANTITIES if name in names for e in errors.of(quantity=name)]
 
     def drawn_of(error: Figure) -> tuple:
-        """What a panel shows of an error: equal ones have one."""
+        """Parts of an error that its panel shows: equal ones have one."""
         parts = tuple(part for part in error.parts if part.name in EFFECTS)
         return error.quantity, error.value, parts
 

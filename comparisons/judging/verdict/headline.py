@@ -100,7 +100,7 @@ def size_of(run: Run, error: Figure) -> str:
 
 @dataclass(frozen=True)
 class Obstacle:
-    """What keeps a run from a verdict by its errors."""
+    """Reason why a run's errors give no verdict."""
 
     kind: Kind
     why: str  # nothing is known of these, as a clause
@@ -160,8 +160,8 @@ def _one_model(run: Run) -> str:
 
 @dataclass(frozen=True)
 class Headline:
-    """What the reader needs first, in this order: within what the half-plane is right, the verdict
-    on the tolerances in a word or two and a sentence, and what would decide or improve it."""
+    """Words that the reader needs first: within what the half-plane is right, the verdict on the
+    tolerances in a word or two and a sentence, and what would decide or improve it."""
 
     within: Within
     kind: Kind
@@ -177,7 +177,7 @@ def kind_of(run: Run) -> Kind:
 
 
 def validity(errors: Sequence[Figure]) -> Kind:
-    """By the judged model errors alone."""
+    """Verdict by the judged model errors alone."""
     verdicts = {error.verdict for error in errors}
     if "fails" in verdicts:
         return "fails"
@@ -214,7 +214,7 @@ def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:
 
 
 def _decided(run: Run, kind: Kind, within: Within, error: Figure) -> str:
-    """What an error decides on the tolerances, without a full stop."""
+    """Decision of an error on the tolerances, without a full stop."""
     if kind == "inconclusive":
         return _inconclusive(run, within, error)
     errors = run.model_errors
@@ -256,7 +256,7 @@ def _law_leaned_on(run: Run) -> str:
 
 
 def _inconclusive(run: Run, within: Within, worst: Figure) -> str:
-    """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
+    """Reason for no verdict: the uncertainty of an error, or what is not modelled."""
     error = _other(run, within, worst, "the error of ") or "this error"
     largest, tolerance = worst.largest_unknown, _tolerance([worst])
     if worst.not_modelled == inf:

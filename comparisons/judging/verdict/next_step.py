@@ -1,4 +1,4 @@
-"""What to do next: a sentence, and the command that does it.
+"""Next step: a sentence on what to do, and the command that does it.
 
 In: a run and its verdict. Out: of what would decide or improve it the best that the scene takes.
 Each offer is held to the scene's own rules before it is printed: what they refuse, what is done
@@ -56,14 +56,14 @@ LINEAR = Offer("--law linear, within linear elasticity", options={"--law": "line
 
 
 def next_of(run: Run, kind: str) -> tuple[Offer, ...]:
-    """What would decide or improve a verdict of a kind; another question after it."""
+    """Offers that would decide or improve a verdict of a kind; another question after it."""
     offers = (offer for offer in _candidates(run, kind) if offered(run, offer))
     best = next(offers, Offer("a lighter load or a smoother surface"))
     return (best, LINEAR) if best.or_linear and offered(run, LINEAR) else (best,)
 
 
 def offered(run: Run, offer: Offer) -> bool:
-    """Whether a run's scene takes what is offered, is another one then, and what the offer is to
+    """True if a run's scene takes what is offered, is another one then, and what the offer is to
     compute can be computed there. What changes nothing is but a sentence."""
     scene = run.problem.scene
     if not (offer.settings or offer.options):
@@ -120,7 +120,7 @@ def _without(words: Sequence[str], option: str, name: str = "") -> list[str]:
 
 
 def _candidates(run: Run, kind: str) -> Iterator[Offer]:
-    """What may be done, the best first. What changes nothing can always be said."""
+    """Offers that may be made, the best first. What changes nothing can always be said."""
     if kind == "not converged":
         yield from _finer_pressures(run)
     elif kind == "not compared":
@@ -188,8 +188,8 @@ def _borne(run: Run, friction: float) -> float:
 
 
 def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:
-    """What would decide an error: its largest unknown computed, or a smaller uncertainty; else the
-    tolerance at which it holds."""
+    """Offers that would decide an error: its largest unknown computed, or a smaller uncertainty;
+    else the tolerance at which it holds."""
     largest = worst.largest_unknown
     why = run.data(MODEL_ERROR).selection.impossible.get(largest, "")
     because = f"{EFFECTS[largest].label} is not computed: {why}" if why else ""
@@ -215,7 +215,7 @@ def _of_open(run: Run, worst: Figure) -> Iterator[Offer]:
 
 
 def _of_effect(run: Run, name: str) -> Iterator[Offer]:
-    """What computes an effect."""
+    """Offers that compute an effect."""
     selection = run.data(MODEL_ERROR).selection
     why = selection.impossible.get(name, "")
     if "budget.effects" in why:
@@ -301,7 +301,7 @@ def _of_law(run: Run) -> Iterator[Offer]:
 
 
 def _bodies_of_open_law(run: Run) -> dict[str, ElasticSection]:
-    """By name, the bodies between whose laws of elasticity an error lies."""
+    """Bodies, by name, between whose laws of elasticity an error lies."""
     laws = run.data(MODEL_ERROR).selection.laws
     names = dict.fromkeys(name for law in laws if not law.is_scatter for name in law.bodies)
     return {name: getattr(run.problem.scene, name) for name in names}
