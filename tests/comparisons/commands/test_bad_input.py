@@ -63,6 +63,35 @@ def test_wrong_file(folder, content, fragment, complaint):
     assert fragment in complaint("run", "scene.toml", "--json")
 
 
+COUNTS = ("3", "1x3", "3x201", "x", "3x-2")
+AXES = [
+    ("", "is ''"),
+    ("a_over_width=１:2", "is"),
+    ("a_over_thicknes", "there is no group a_over_thicknes; the nearest is a_over_th"),
+    ("rms_slope=0.2:0.1", "the range is 0.2:0.1"),
+    ("rms_slope=a:b", "is 'rms_slope=a:b'; allowed is GROUP"),
+    ("rms_slope=0:1", "the range is 0:1; allowed are two numbers above 0"),
+    ("rms_slope=1", "is 'rms_slope=1'"),
+]
+MARKS = [
+    ("smooth", "", "the scene has no name"),
+    ("modulus-coating", "smooth", "smooth has no coating_modulus_ratio to be mark"),
+    ("slope-wavelength", "smooth", "smooth is smooth, and the map is of a rough"),
+    ("smooth", "periodic", "periodic is rough, and the map is of a smooth surface"),
+    ("curvature-thickness", "smooth", "smooth lies off the map: its a/t is 0; allowed is 0.05 to"),
+]
+SWEEPS = [
+    ("position", 'is "position"; allowed is FIELD=A,B,C'),
+    ("load=1 GPa:2 GPa", "allowed is FIELD=A,B,C or FIELD=FROM:TO:N"),
+    ("load=1 GPa:2 MPa:3", "two numbers of one unit"),
+    ("load=1:2:0", "how many values, from 2"),
+    ("load=1e5:2e5:３", "how many values"),
+    ("position=1", "allowed are from 2 to"),
+    ("amplitude=3", "the nearest is profile.amplitude"),
+    ("load.position=0:1:100000", "from 2 to 10000"),
+]
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -84,14 +113,18 @@ def test_wrong_file(folder, content, fragment, complaint):
         *(([*words, ""], "is empty; allowed is a path") for words in PLACES),
         (["run", "smooth", "--out="], "is empty; allowed is a path"),
         (["run", "smooth", "--out", " "], "is empty; allowed is a path"),
-        (["map", "smooth", "--points", "５x５"], "--points: is"),
-        (["map", "smooth", "--x", ""], "--x: is ''"),
+        *((["map", "smooth", "--points", n], "--points: is") for n in ("５x５", *COUNTS)),
+        *((["map", "smooth", "--x", axis], f"--x: {said}") for axis, said in AXES),
         (["map", "smooth", "--y", ""], "--y: is ''"),
+        (["map", "smooth", "--x", "rms_slope", "--y", "rms_slope"], "--y: is rms_slope, as --x"),
         (["map", "smooth", "--quantity", ""], "--quantity: there is no "),
-        (["map", "smooth", "--mark", ""], "the scene has no name"),
-        (["map", "smooth", "--x", "a_over_width=１:2"], "--x: is"),
+        (["map", "smooth", "--quantity", "peak"], "--quantity: there is no peak"),
+        (["map", "curvature-thickness", "--quantity", "mean_gap"], "mean_gap is not on this"),
+        *((["map", name, "--mark", scene], said) for name, scene, said in MARKS),
         (["map", "smooth", "--workers", "²"], "--workers: is '²'"),
-        (["sweep", "smooth", "--over", "load=1e5:2e5:３"], "how many values"),
+        (["sweep", "sinusoid"], "--over: is missing"),
+        *((["sweep", "sinusoid", "--over", over], said) for over, said in SWEEPS),
+        (["sweep", "smooth", "--over", "position=4"], "a smooth scene is the same everywhere"),
         (["run", "smooth", "--tolerance", "０.1"], 'tolerance.peak_pressure: is "０.1", which'),
         *(
             (["run", "mine.toml", "--tolerance", wrong], f"tolerance.peak_pressure: is {said}")

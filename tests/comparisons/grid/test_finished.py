@@ -165,24 +165,6 @@ def test_a_finished_map_is_shown_and_not_solved(pressed, tmp_path, capsys, monke
     assert (out / "map.svg").read_text() != unmarked
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("curvature-thickness", "--quantity", "mean_gap"), "--quantity: mean_gap is not on this"),
-        (("modulus-coating", "--mark", "smooth"), "smooth has no coating_modulus_ratio to be mark"),
-        (("slope-wavelength", "--mark", "smooth"), "smooth is smooth, and the map is of a rough"),
-        (("smooth", "--mark", "periodic"), "periodic is rough, and the map is of a smooth surface"),
-        (
-            ("curvature-thickness", "--mark", "smooth"),
-            "smooth lies off the map: its a/t is 0; allowed is 0.05 to 4",
-        ),
-    ],
-)
-def test_what_a_map_does_not_have_is_refused(arguments, said, tmp_path, complaint, monkeypatch):
-    monkeypatch.delattr("comparisons.grid.map.solved_in")  # nothing is solved before
-    assert said in complaint("map", *arguments, "--out", tmp_path / "map")
-
-
 @pytest.fixture
 def pressed(tmp_path) -> str:
     """A scene of a prescribed approach."""

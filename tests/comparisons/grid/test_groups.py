@@ -127,25 +127,6 @@ class TestAxes:
         assert (axis["values"], axis["logarithmic"]) == ([0.0, 0.245, 0.49], False)
         assert counts_of("3x12") == (3, 12)
 
-    @pytest.mark.parametrize(
-        ("text", "what"),
-        [
-            ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
-            ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
-            ("rms_slope=a:b", "--x: is 'rms_slope=a:b'; allowed is GROUP"),
-            ("rms_slope=0:1", "--x: the range is 0:1; allowed are two numbers above 0"),
-            ("rms_slope=1", "--x: is 'rms_slope=1'"),
-        ],
-    )
-    def test_wrong_axes(self, text, what):
-        with pytest.raises(InputError, match=f"^{what}"):
-            axis_of(text, 3, "--x")
-
-    @pytest.mark.parametrize("text", ["3", "1x3", "3x201", "x", "3x-2"])
-    def test_wrong_points(self, text):
-        with pytest.raises(InputError, match=r"^--points: is"):
-            counts_of(text)
-
 
 def found_at(scene: Scene) -> dict:
     return answered(solve_point, Point({}, "peak_pressure", scene, None, "key"))
@@ -209,17 +190,6 @@ class TestRequest:
     def test_usual_axes_are_what_the_scene_has(self):
         content = request_of("sinusoid", "2x2").content
         assert [content[axis]["group"] for axis in "xy"] == ["wavelength_over_a", "rms_slope"]
-
-    @pytest.mark.parametrize(
-        ("arguments", "what"),
-        [
-            ({"x": "a_over_width", "y": "a_over_width"}, "--y: is a_over_width, as --x"),
-            ({"quantity": "peak"}, "--quantity: there is no peak"),
-        ],
-    )
-    def test_wrong_requests(self, arguments, what):
-        with pytest.raises(InputError, match=f"^{what}"):
-            request_of(**{"scene": "smooth", "points": "2x2"} | arguments)
 
     def test_stresses_take_a_window(self, tmp_path):
         text = (SCENES / "smooth.toml").read_text().partition("[stress]")

@@ -273,30 +273,6 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
     ]
 
 
-@pytest.mark.parametrize(
-    ("over", "said"),
-    [
-        ("position", 'is "position"; allowed is FIELD=A,B,C'),
-        ("load=1 GPa:2 GPa", "allowed is FIELD=A,B,C or FIELD=FROM:TO:N"),
-        ("load=1 GPa:2 MPa:3", "two numbers of one unit"),
-        ("load=1:2:0", "how many values, from 2"),
-        ("position=1", "allowed are from 2 to"),
-        ("amplitude=3", "the nearest is profile.amplitude"),
-        ("load.position=0:1:100000", "from 2 to 10000"),
-        ([], "is missing"),
-    ],
-)
-def test_wrong_sweeps_are_one_line(over, said):
-    with pytest.raises(InputError) as refused:
-        request([over] if isinstance(over, str) else over)
-    assert said in str(refused.value) and "\n" not in str(refused.value)
-
-
-def test_a_smooth_scene_has_no_placements():
-    with pytest.raises(InputError, match="a smooth scene is the same everywhere"):
-        sweep_request([scene_of("smooth")], ["position=4"], ("half_plane",))
-
-
 def test_stresses_as_arrays():
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6},
               "stress": {"points": [21, 8], "depth": 1.0}}  # fmt: skip

@@ -542,16 +542,6 @@ def test_a_scene_that_cannot_be_solved_is_refused_and_writes_nothing(tmp_path, s
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_spent_budget_leaves_the_question_open(tmp_path):
-    tables = changed(
-        QUICK, budget={"time": 0.01}, tolerance={"tau1_max": 1e-5, "peak_pressure": 1e-5}
-    )
-    outcome = run(resolved(tables), tmp_path / "out", MODELS)
-    assert "budget.time" in outcome.solved.refinement
-    verdicts = {row.quantity: row.verdict for row in outcome.figures.of(study="comparison")}
-    assert verdicts["peak_pressure"] == "inconclusive"
-
-
 def test_a_level_that_would_not_fit_is_not_begun(tmp_path):
     """Room for the three planned levels and none for a fourth."""
     tables = changed(QUICK, budget={"memory": 2.9e8}, tolerance={"peak_pressure": 1e-6})

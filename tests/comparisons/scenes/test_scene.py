@@ -229,12 +229,6 @@ class TestChanged:
         assert soft.written["body"] == {"youngs_modulus": "207 GPa", "poissons_ratio": 0.4999}
         assert (plain.name, plain.source) == (soft.name, soft.source)
 
-    def test_it_is_checked_as_a_file_is(self):
-        with pytest.raises(SceneError, match=r"^made.toml: load.frictoin: is no known field; the"):
-            resolved(BARE).changed("load.frictoin", 0.1)
-        with pytest.raises(SceneError, match=r"^made.toml: title.x: title is no table; allowed is"):
-            resolved(FULL).changed("title.x", 1)
-
     def test_none_takes_a_field_away(self):
         scene = resolved(FULL).changed("body.hardness", None)
         assert scene.body.hardness is None and "hardness" not in scene.tables["body"]
