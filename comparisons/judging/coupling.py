@@ -124,8 +124,8 @@ def coupling_of(case: Case, callback: ProgressCallback) -> Coupling:
 
 
 def _other_way(problem: Problem, level: Level, callback: ProgressCallback) -> Level | None:
-    """With coupling where the level has none, without it where it has, on a grid that the contact
-    moved by friction stays on; None where the surface ends before."""
+    """Solve with coupling where the level has none, without it where it has, on a grid that the
+    contact moved by friction stays on; None where the surface ends before."""
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
     effects = frozenset({COUPLED}) - problem.half_plane_effects
     # friction moves the contact by at most about mu beta of its own half-length

@@ -46,12 +46,12 @@ FREE_POINTS, SECONDS_PER_POINT, BYTES_PER_POINT, BYTES_PER_SEARCHED = 1e5, 2e-5,
 
 
 def expected_of(count: int) -> ExpectedCost:
-    """What a level of so many pressure elements will take."""
+    """Cost of a level of so many pressure elements."""
     return ExpectedCost(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
 
 
 def expected_with(problem: Problem, pitch: float) -> ExpectedCost:
-    """What a level of a pitch [m] will take with its stresses."""
+    """Cost of a level of a pitch [m] with its stresses."""
     cost, window = expected_of(problem.grid(pitch).count), problem.window
     if window is None:
         return cost

@@ -54,8 +54,8 @@ def laws(scene: Scene) -> str:
 
 
 def question(scene: Scene) -> str:
-    """What the verdict of a scene is meant for, at the beginning of a sentence; nothing where it
-    is meant for the bodies as they are."""
+    """Beginning of a sentence: what the verdict of a scene is meant for; empty where it is meant
+    for the bodies as they are."""
     if scene.linear:
         return WITHIN_LINEAR + (" and flow" if scene.finite_element.plastic else "")
     return "for elastic bodies" if scene.asks_elastic else ""
@@ -117,7 +117,7 @@ def _boundary(problem: Problem) -> str:
 
 
 def support_text(roller: RollerSection) -> str:
-    """What holds an elastic roller, as a disc, in one phrase."""
+    """Support of an elastic roller, as a disc, in one phrase."""
     support = roller.support
     if support is None:
         return "a sector, held at 0.4 of its radius (not given: roller.support)"

@@ -1,4 +1,4 @@
-"""What a finer grid of a crest would make of the highest pressure of a level.
+"""Highest pressure of a level on a finer grid of its crest.
 
 Under a crest that is sharper than the pressure elements, pressures grow with the logarithm of their
 number, as at the apex of a wedge (Johnson 1985, section 5.2)

@@ -31,7 +31,7 @@ STRAIN = "equivalent_plastic_strain"  # a field of what flows
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """What a level will take by measured laws; `memory` [bytes] at the peak."""
+    """Cost of a level by measured laws; `memory` [bytes] at the peak."""
 
     unknowns: int
     memory: float
@@ -112,7 +112,7 @@ class MeshField:
         displacement: np.ndarray,
         others: dict[str, np.ndarray],
     ) -> "MeshField":
-        """Of stresses at mesh points and displacements (n, c, 2) [m] at nodes, a set a friction."""
+        """Field of stresses at mesh points and displacements (n, c, 2) [m], a set a friction."""
         nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
         moved = body.at_points(np.moveaxis(displacement, 1, 0))[:, nodes.point]
         states = dict(zip(frictions, (StressState(*s.values.T) for s in nodal), strict=True))
@@ -121,7 +121,7 @@ class MeshField:
 
     @property
     def at_corners(self) -> "MeshField":
-        """The same on triangles of three points, those of the corners."""
+        """Field on triangles of three points, those of the corners."""
         kept, cells = np.unique(self.triangles[:, :3], return_inverse=True)
         stresses = {mu: StressState(*s.parts[:, kept]) for mu, s in self.stresses.items()}
         moved = {mu: values[kept] for mu, values in self.displacement.items()}
@@ -132,8 +132,8 @@ class MeshField:
 
 @dataclass(frozen=True)
 class RecoverableField:
-    """What a `MeshField` of linear bodies under vertical pressures is made of. Of all levels of a
-    model the last one's field alone is written: stresses are recovered when they are asked for."""
+    """Parts of a `MeshField` of linear bodies under vertical pressures. Of all levels of a model
+    the last one's field alone is written: stresses are recovered when they are asked for."""
 
     mesh: BlockMesh
     material: Material
@@ -194,7 +194,7 @@ class Level:
         return self.solution.converged
 
     def shares_contact(self, other: "Level") -> bool:
-        """Whether another level, under another friction coefficient, has the same contact."""
+        """True if another level, under another friction coefficient, has the same contact."""
         return self.solution.pressure is other.solution.pressure
 
     @property
@@ -241,7 +241,7 @@ class Solution:
 
     @property
     def seconds(self) -> dict[str, float]:
-        """By stage, all levels together."""
+        """Seconds by stage, all levels together."""
         total: dict[str, float] = {}
         for level in chain(self.levels, *self.repeated.values()):
             for stage, seconds in level.seconds.items():

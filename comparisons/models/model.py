@@ -47,8 +47,8 @@ class Model:
     def cost(
         self, problem: Problem, number: int, patches: np.ndarray | None = None
     ) -> ExpectedCost:
-        """What a level will take by the laws of cost, before anything is meshed or solved: of
-        finite elements in contact on `patches` (k, 2) [m], by default all over the stretch of
+        """Cost of a level by the laws of cost, before anything is meshed or solved: of finite
+        elements in contact on `patches` (k, 2) [m], by default all over the stretch of
         pressures, which it never exceeds."""
         problem, pitch = self.posed(problem), problem.pitch_of(number)
         if self.solver == "analytic":
@@ -84,7 +84,7 @@ class Model:
     def _solved(
         self, here: Here, problem: Problem, pitch: float, stages: Stages
     ) -> dict[float, Level]:
-        """Of friction coefficients that share a contact."""
+        """Levels of the friction coefficients that share a contact."""
         if self.solver == "analytic":
             grid = problem.grid(pitch)
             return analytic_level(problem, self.effects, grid, stages, self.fields)
@@ -122,7 +122,7 @@ class Model:
 
     @property
     def _checks(self) -> dict[str, str]:
-        """What its levels check, in words by parts of their keys."""
+        """Checks on its levels, in words by parts of their keys."""
         checks = {}
         if self.half_block:
             checks["far_boundary_check"] = "far boundary at half the distance"

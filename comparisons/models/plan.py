@@ -121,7 +121,7 @@ class Forecast:
 
     @property
     def text(self) -> str:
-        """In one line."""
+        """Forecast in one line."""
         begin = self.levels[: self.asked]
         count = "1 level" if len(begin) == 1 else f"{len(begin)} levels"
         few = f" of {self.asked} asked for" if len(begin) < self.asked else ""
@@ -134,9 +134,9 @@ class Forecast:
 
 
 def forecast(problem: Problem, plan: Plan) -> Forecast:
-    """Of a plan's levels, without its effects and checks. Finite elements that flow are expected in
-    the contact of the nearest analytic operator, as far as flow may spread it, others as if contact
-    were all over the stretch of pressures, which it never exceeds."""
+    """Forecast of a plan's levels, without effects and checks. Elements that flow are expected in
+    the contact of the nearest analytic operator, as far as flow may spread it, others as if
+    contact were all over the stretch of pressures, which it never exceeds."""
     scene, levels, total, ends = problem.scene, [], 0.0, ""
     plastic = scene.finite_element.plastic
     patches = flowing_contact(problem) if plastic else None
@@ -178,8 +178,8 @@ def with_one_more(problem: Problem, runs: Mapping[str, Solution]) -> tuple[float
 
 
 def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
-    """Of flow on the first two levels, at small strains with the check of its increments, for every
-    friction coefficient, by the laws of cost."""
+    """Seconds for flow on the first two levels, at small strains with the check of its increments,
+    for every friction coefficient, by the laws of cost."""
     switches = {"finite_element.plastic": True, "finite_element.deformation": "linear"}
     flowing = problem.under(problem.largest_friction)
     flowing = replace(flowing, scene=flowing.scene.unchecked(switches))
@@ -190,8 +190,7 @@ def flow_seconds(problem: Problem, patches: np.ndarray) -> float:
 
 
 def time_with_flow(problem: Problem, patches: np.ndarray) -> float:
-    """Of the levels asked for of both models, and of flow [s], in contact on `patches` (k, 2)
-    [m]."""
+    """Seconds for all levels of both models, and for flow, in contact on `patches` (k, 2) [m]."""
     seconds_of_parts = (
         scene_model(name, problem).cost(problem, number, patches).seconds
         for name in MODELS

@@ -280,7 +280,7 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
 
 
 def _whole(problem: Problem, pitch: float) -> float:
-    """Of a periodic surface the pitch, or a smaller one, that goes into the period 4 to 7 times a
+    """Pitch of a periodic surface, or a smaller one, that goes into the period 4 to 7 times a
     power of two, so that grids can be halved again and again."""
     if problem.period is None:
         return pitch

@@ -69,7 +69,7 @@ class Levels:
 
 @dataclass(frozen=True)
 class Problem:
-    """What both models solve."""
+    """Problem that both models solve."""
 
     scene: Scene
     surface: SceneSurface  # run in where the scene asks for that

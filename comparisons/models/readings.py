@@ -26,8 +26,8 @@ SLOPE_STEP = 1e-3  # of a pitch, on either side
 
 
 def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndStress:
-    """What the hats of a solution leave out of the stresses next to the ends of contact: both
-    models' own, for both have hats. Nothing where the hardness holds a pressure."""
+    """Stresses that the hats of a solution leave out next to the ends of contact, in both models
+    alike, for both have hats. None where the hardness holds a pressure."""
     pressure, x = grid.unfolded(solution.pressure), grid.unfolded_x
     if np.any(pressure >= problem.constraints().hardness):
         return EndStress(x, pressure, ())
@@ -45,8 +45,8 @@ def ends_of_contact(problem: Problem, grid: HatGrid, solution: ContactSolution) 
 def left_out_at_ends(
     problem: Problem, grid: HatGrid, solution: ContactSolution, x: np.ndarray
 ) -> np.ndarray:
-    """What hats and the curves of `ends_of` leave out of sx (2, n) [Pa] under p and under q = p at
-    those x [m] that are ends of contact, a cusp; zero at others, and where the hardness holds a
+    """Part of sx (2, n) [Pa] under p and under q = p that hats and the curves of `ends_of` lack
+    at those x [m] that are ends of contact, a cusp; zero at others, and where the hardness holds a
     pressure. No pressure is left there, and both bodies touch up to there, 2 / (pi E*) int p(s) /
     (x - s) ds = g0'(x); sx under q is -2 / pi times that integral. Hertz's contact has 2 p0."""
     left, pressure = np.zeros((2, len(x))), solution.pressure
@@ -63,7 +63,7 @@ def left_out_at_ends(
 
 
 def beside_hats(problem: Problem, level: Level) -> EndStress | PeriodicRest:
-    """What the hats of a level, on three periods of a periodic surface, leave out of stresses."""
+    """Stresses that the hats of a level, on three periods of a periodic surface, leave out."""
     ends, grid = ends_of(problem, level.grid, level.solution), level.grid
     if not grid.periodic:
         return ends

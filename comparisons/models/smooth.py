@@ -20,7 +20,7 @@ from comparisons.models.problem import Problem
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """Of smooth half-planes under the load of a scene; lengths [m], pressures and stresses [Pa]."""
+    """Closed form of smooth half-planes under a load; lengths [m], pressures and stresses [Pa]."""
 
     name: str  # whose it is
     label: str  # of its curve of pressure

@@ -1,1 +1,1 @@
-"""What a finished run is, on disk and as numbers."""
+"""Files and numbers of a finished run."""

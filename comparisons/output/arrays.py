@@ -38,7 +38,7 @@ LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
 
 @dataclass(frozen=True)
 class RunArrays:
-    """What a run has found along x, and below."""
+    """Arrays of a run along x, and below."""
 
     arrays: Mapping[str, np.ndarray]  # by name
     answers: Mapping[str, tuple[Answer, ...]]  # from outside, by name, each on its resolutions

@@ -90,7 +90,7 @@ def _runs(folders: Iterable[Path]) -> list[Path]:
 
 
 def judged_rows(rows: Iterable[Row]) -> list[Row]:
-    """What each run answers for; of a run that judges nothing its contact."""
+    """Rows that each run answers for; of a run that judges nothing those of its contact."""
     shown = []
     for same in grouped(rows, lambda row: (row["run"], row["title"])):
         judged = [row for row in same if row["verdict"] and row["study"] != LADDER]

@@ -45,12 +45,12 @@ def warnings_about(scene: Scene, surface: SceneSurface) -> list[str]:
 
 
 def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
-    """The same of a measured trace alone."""
+    """Warnings about a measured trace alone."""
     return [] if info is None or info.path is None else [*_of_trace(info)]
 
 
 def warnings_about_result(run: Run) -> list[str]:
-    """What only the solution shows."""
+    """Warnings that only the solution shows."""
     model = next(iter(run.runs.values()))
     surface, solution = run.problem.surface, model.finest.solution
     peak, modulus = float(solution.pressure.max()), run.problem.modulus

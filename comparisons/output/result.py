@@ -1,4 +1,4 @@
-"""What a run leaves in its folder: result.json, schema 3, and run.npz with its arrays.
+"""Result of a run in its folder: result.json, schema 3, and run.npz with its arrays.
 
 In: a finished run, or the folder of one. Out: the `Result` that both give, and its files.
 
@@ -61,7 +61,7 @@ BUILT_OTHERWISE = (ArithmeticError, AttributeError, LookupError, TypeError, Valu
 
 @dataclass(frozen=True, repr=False)
 class Result(Found, Printed):
-    """What a finished run and its folder both say."""
+    """Result that a finished run and its folder both give."""
 
     name: str  # the folder's, or the scene's
     scene: dict  # as resolved, SI units
@@ -94,7 +94,7 @@ class Result(Found, Printed):
 
     @property
     def models(self) -> tuple[str, ...]:
-        """Of half_plane, finite_element, those that were run."""
+        """Names of the models that were run, of half_plane and finite_element."""
         solved = {figure.source for figure in self.figures.of(study=contact.NAME)}
         return tuple(name for name in MODELS if name in solved)
 
@@ -150,7 +150,7 @@ class Result(Found, Printed):
         return "\n".join(takewhile(bool, self.printed[:SUMMARY]))
 
     def tables(self) -> "Text":
-        """What the run printed; a terminal obeys nothing of it."""
+        """Lines that the run printed; a terminal obeys nothing of them."""
         from rich.text import Text
 
         return Text("\n".join(map(printable, self.printed)), no_wrap=True, overflow="ignore")
@@ -205,7 +205,7 @@ def said_of(run: Run) -> dict[str, object]:
 
 
 def read_result(folder: Path) -> Result:
-    """What a run has left in its folder. Raises InputError, one line, where it has left none."""
+    """Read the result in a run's folder. Raises InputError, one line, where there is none."""
     path = folder / FILE
     try:
         content = json.loads(path.read_bytes(), parse_constant=_no_number)

@@ -148,7 +148,7 @@ def _comparison(run: Run) -> "Table":
 
 
 def _model_errors(run: Run) -> "Table":
-    """Of the half-plane in what is judged, and what most of it comes from."""
+    """Table of the half-plane's errors in what is judged, and what most of each comes from."""
     heads = {"difference": "error\n%", "uncertainty": "+-\n%"}
     table = _brief(error_table(run, brief=True), heads, ("verdict",))
     table.title = "model error of the half-plane"

@@ -61,7 +61,7 @@ class FinishedRun(Result):
 
     @property
     def plot(self) -> "Plots":
-        """What draws the run."""
+        """Pictures of the run."""
         from comparisons.output.page.plots import Plots
 
         return Plots(self.outcome)

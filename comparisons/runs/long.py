@@ -1,4 +1,4 @@
-"""What a run takes: said once it is known, and written beside its levels as it goes on."""
+"""Expected time of a run: said once it is known, and written beside its levels as it goes on."""
 
 from collections.abc import Sequence
 from contextlib import suppress
@@ -24,8 +24,8 @@ PARTS = {
 
 
 def expected(scene: Solved, tasks: Tasks) -> list[str]:
-    """What the known tasks of a run take, on all cores and of the processor, by the laws of cost;
-    its levels; why a study is left out."""
+    """Lines on the time of a run's known tasks, on all cores and of the processor, by the laws of
+    cost; its levels; why a study is left out."""
     open_tasks, parts = tasks.left(), []
     for name, beginnings in PARTS.items():
         mine = [key for key in open_tasks if key.startswith(beginnings)]

@@ -173,7 +173,7 @@ class _Levels:
         return replace(self.scene, cases=tuple(cases))
 
     def checked(self, solved: Solved, why: str) -> Solved:
-        """With the far boundary at half the distance, longer increments, and why that is all."""
+        """Add the far boundary at half the distance, longer increments, and why that is all."""
         again: dict[str, list[Levels]] = {part: [] for part in self.checks}
         for part, model in ((part, model) for part, of in self.checks.items() for model in of):
             try:

@@ -45,7 +45,7 @@ class Repetition(Printed):
 
     @property
     def levels(self) -> tuple[int, int]:
-        """Of each model, recorded and repeated."""
+        """Numbers of levels of each model, recorded and repeated."""
         return self.result.record["levels"], self.outcome.record["levels"]
 
     @property
@@ -79,7 +79,7 @@ class Repetition(Printed):
         }
 
     def tables(self) -> "RenderableType":
-        """What moved, and what the repetition had that the record had not."""
+        """Tables of what moved, and of what the repetition had that the record had not."""
         from rich.console import Group
         from rich.text import Text
 

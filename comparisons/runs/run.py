@@ -70,7 +70,7 @@ GOES_ON = "finished levels are kept, the same command goes on from there"
 
 @dataclass(frozen=True)
 class Known:
-    """What a run need not find out: read before, or recorded."""
+    """Inputs that a run need not find out: read before, or recorded."""
 
     surface: SceneSurface | None = None  # as measured; None: read as the scene says
     answers: Answers | None = None  # from outside; None: read from the scene's files
@@ -154,8 +154,8 @@ def posed(
 
 
 def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> list[str]:
-    """What a run would do and what it would take; the half-plane alone is solved for that, on the
-    levels asked for. Steps that the scene does not need, each with its reason, come last."""
+    """Lines on what a run would do and how long it would take; the half-plane alone is solved for
+    that, on the levels asked for. Steps that the scene does not need come last, with reasons."""
     problem, plan = posed(scene, surface, models)
     tasks, scene_now, effects = Tasks(at_once=cores()), unsolved(problem, plan), []
 
@@ -252,7 +252,7 @@ def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
 
 
 def record_of(solved: Solved, findings: Mapping[str, Findings]) -> dict:
-    """What a repetition needs beside scene, figures and arrays."""
+    """Record for a repetition, beside scene, figures and arrays."""
     scene = solved.problem.scene
     return {
         "made": made(),
@@ -266,7 +266,7 @@ def record_of(solved: Solved, findings: Mapping[str, Findings]) -> dict:
 
 
 def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, object]:
-    """Of trace and profile, pressures, the run-in surface, and the files of answers."""
+    """Hashes of trace and profile, pressures, the run-in surface, and the files of answers."""
     surface = solved.problem.surface
     hashes: dict[str, object] = {
         name: digest(profile.x, profile.height) for name, profile in traces_of(surface).items()

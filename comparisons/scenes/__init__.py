@@ -1,1 +1,1 @@
-"""What is asked: a checked scene, and its surface; `library/` holds the scenes that come along."""
+"""Scenes, checked, and their surfaces; `library/` holds the shipped scenes."""

@@ -156,7 +156,7 @@ class Extent:
         return self.value * half_width if self.in_half_widths else self.value
 
     def plain(self) -> float | str:
-        """As a scene file has it."""
+        """Value as a scene file has it."""
         return self.value if self.in_half_widths else f"{self.value!r} m"
 
 
@@ -217,7 +217,7 @@ class SceneSection(BaseModel):
         yield from ()
 
     def misfits(self, scene: "SceneSection") -> Iterator[tuple[str, str]]:
-        """What does not fit the rest of the scene: "section.field" to change, and what is wrong."""
+        """Misfits to the rest of the scene: "section.field" to change, and what is wrong."""
         yield from ()
 
     @classmethod
@@ -226,7 +226,7 @@ class SceneSection(BaseModel):
         return tables
 
     def completed(self, scene: "SceneSection") -> Self:
-        """With the fields that it leaves out and that follow from the rest of the scene."""
+        """Fill in the fields that it leaves out and that follow from the rest of the scene."""
         return self
 
     @model_validator(mode="after")
@@ -253,7 +253,7 @@ def file_fields(table: type[BaseModel]) -> dict[str, FieldInfo]:
 
 
 def notes_in(hint: object) -> Iterator[object]:
-    """What stands in `Annotated` anywhere in a type hint."""
+    """Notes in `Annotated` anywhere in a type hint."""
     for part in get_args(hint):
         yield part
         yield from notes_in(part)

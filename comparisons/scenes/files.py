@@ -73,7 +73,7 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
 
 
 def name_of(path: Path) -> str:
-    """What a scene in a file is called: the file's name without its ending, as printable text."""
+    """Name of a scene in a file: the file's without its ending, as printable text."""
     stem = path.stem.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
     return one_line(stem).strip(". ") or "scene"
 

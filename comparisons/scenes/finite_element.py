@@ -57,12 +57,12 @@ class FiniteElementSection(SceneSection):
 
     @property
     def degree(self) -> int:
-        """Of the displacements' polynomials."""
+        """Degree of the displacements' polynomials."""
         return int(self.element[1:])
 
     @property
     def most_order(self) -> float:
-        """Of convergence in pressures and stresses: linear elements have the first alone."""
+        """Highest order of pressures and stresses: linear elements have the first alone."""
         return 1.0 if self.element == "P1" else math.inf
 
     def completed(self, scene: SceneSection) -> Self:

@@ -58,7 +58,7 @@ def unit_of_column(name: str, dimension: Dimension) -> str | None:
 
 
 def _measures(word: str) -> bool:
-    """Whether a word of two letters or more is a unit, of whatever dimension."""
+    """True if a word of two letters or more is a unit, of whatever dimension."""
     try:
         unit_in_si(word, LENGTH)
     except UnknownUnitError:

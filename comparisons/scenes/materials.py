@@ -141,7 +141,7 @@ def solids() -> dict[str, Solid]:
 
 @cache
 def sources() -> dict[str, str]:
-    """What the keys of sources stand for."""
+    """Sources, by their keys."""
     return tomllib.loads(SOLIDS.read_text(encoding="utf-8"))["sources"]
 
 
@@ -169,7 +169,7 @@ def solid_named(name: str) -> Solid | None:
 
 
 def names_for(name: str) -> str:
-    """What is told of a name that no solid has: the one that it is a slip of the pen for, or the
+    """Message on a name that no solid has: the one that it is a slip of the pen for, or the
     names of the solids of its class, of all where it tells none.
 
     A name of other digits is another solid, however alike."""
@@ -206,7 +206,7 @@ def measured_solids(*kinds: str) -> list[Solid]:
 
 
 def bounding_solids(kind: str, youngs_modulus: float, poissons_ratio: float) -> tuple[Solid, Solid]:
-    """Of `measured_solids`, the two whose constants, scaled to the body's shear modulus, lower and
+    """Two of `measured_solids`, whose constants, scaled to the body's shear modulus, lower and
     raise the peak pressure of a smooth contact most."""
     body = Material(youngs_modulus, poissons_ratio)
 

@@ -135,7 +135,7 @@ class ProfileSection(SceneSection):
             yield from self.unless_one_of(names, or_none=True)
 
     def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
-        """What a periodic surface does not take: a round body, another load, what bends."""
+        """Misfits to a periodic surface: a round body, another load, what bends."""
         load = scene.load
         if not self.periodic:
             return

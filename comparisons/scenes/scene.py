@@ -174,7 +174,7 @@ class SceneBase(SceneSection):
 
     @property
     def named(self) -> str:
-        """As a command names it: the file, and what is set beside it."""
+        """Scene as a command names it: the file, and what is set beside it."""
         settings = (word for text in self._origin.settings for word in ("--set", text))
         return shlex.join((self.source, *settings))
 
@@ -212,7 +212,7 @@ class SceneBase(SceneSection):
 
     @property
     def smooth_body(self) -> str:
-        """What presses, in words."""
+        """Name of the body that presses."""
         return "flat body" if self.periodic else "roller"
 
     @property
@@ -251,7 +251,7 @@ class SceneBase(SceneSection):
 
 
 def _sections_of_studies() -> dict[str, tuple[object, None]]:
-    """By the name of each module of `comparisons.scenes.studies` what it calls SECTION, or none."""
+    """SECTION, or none, of each module of `comparisons.scenes.studies`, by the module's name."""
     names = sorted(module.name for module in iter_modules(of_studies.__path__))
     modules = {name: import_module(f"{of_studies.__name__}.{name}") for name in names}
     return {name: (module.SECTION | None, None) for name, module in modules.items()}
@@ -281,7 +281,7 @@ def sections_of(scene: type[SceneBase]) -> dict[str, type[SceneSection]]:
 
 
 def dimension_of(field: str) -> Dimension | None:
-    """What the numbers of "table.field" measure; None of what is no number of one dimension."""
+    """Dimension of the numbers of "table.field"; None where they have not one dimension."""
     table, _, name = field.partition(".")
     section = sections_of(Scene).get(table)
     info = None if section is None else file_fields(section).get(name)
@@ -290,7 +290,7 @@ def dimension_of(field: str) -> Dimension | None:
 
 
 def assignments(option: str, texts: Sequence[str], scene: Scene, allowed: str) -> dict[str, str]:
-    """By the field's whole name what stands after "FIELD=" in each value of a command's option.
+    """Texts after "FIELD=" in each value of a command's option, by the field's whole name.
     Raises InputError for what is no such thing, and for a field that is given twice."""
     given: dict[str, str] = {}
     for text in texts:

@@ -245,7 +245,7 @@ class BodySection(ElasticSection):
                 yield "hardening", f"is no law: {error}"
 
     def flow_stress(self) -> Hardening:
-        """Of a body with a yield stress; raises ValueError, in one line, where it is no law."""
+        """Flow stress of a body with a yield stress; ValueError, one line, where it is no law."""
         laws = self.hardening.laws if self.hardening else {}
         return Hardening(self.yield_stress, self.hardening_modulus or 0.0, **laws)
 
@@ -329,7 +329,7 @@ class StressSection(SceneSection):
 
 
 class ToleranceSection(SceneSection):
-    """What is judged, relative. Quantities without a tolerance are shown. Those of stresses need
+    """Relative tolerances. Quantities without one are shown only. Those of stresses need
     `[stress]`."""
 
     peak_pressure: Fraction = optional("largest pressure", USUAL)
@@ -365,7 +365,7 @@ class ResolutionSection(SceneSection):
 
 
 class BudgetSection(SceneSection):
-    """What a run may take before refinement ends."""
+    """Limits of a run, at which refinement ends."""
 
     time: Annotated[float, Number(TIME, gt=0.0)] = optional(
         "of a run, counted by the laws of cost and not by a clock", 300.0

@@ -89,7 +89,7 @@ class ProfileInfo:
     seam: float | None = None  # [m] between the heights of a periodic trace's ends, before they met
 
     def as_dict(self) -> dict:
-        """The same for JSON, without `path`, which another machine does not have, `trace` and
+        """Fields for JSON, without `path`, which another machine does not have, `trace` and
         `doubt`."""
         figures = asdict(replace(self, path=None, trace=None))
         del figures["path"], figures["trace"], figures["doubt"]
@@ -107,7 +107,7 @@ class ProfileInfo:
 
 @dataclass(frozen=True)
 class SceneSurface:
-    """What a scene presses on."""
+    """Surface that a scene presses on."""
 
     profile: Profile | None  # None: smooth
     info: ProfileInfo | None
@@ -173,7 +173,7 @@ def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurfac
 
 
 def scene_key(scene: SceneBase, surface: SceneSurface) -> list:
-    """What of a scene shapes results: its tables and its profile."""
+    """Tables and profile of a scene: what of it shapes results."""
     profile = surface.profile
     traced = "" if profile is None else digest(profile.x, profile.height)
     return [surface.completed(scene.tables), traced]
@@ -246,7 +246,7 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
 
 
 def _doubt(table: Mapping, guesses: Guesses) -> str:
-    """What the header says otherwise. One that names a single unit may mean either column."""
+    """Text on what the header says otherwise. A single unit in it may mean either column."""
     asked, others = [name for name in guesses if name in table], []
     for name in asked:
         unit, why = guesses[name]
@@ -268,7 +268,7 @@ def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profil
 
 
 def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
-    """What is pressed of the trace, and the filter and the standard's figures for the account."""
+    """Pressed part of the trace, and the filter and the standard's figures for the account."""
     cutoff, short = table.get("cutoff"), table.get("short_cutoff")
     field = "cutoff"
     try:
@@ -292,7 +292,7 @@ def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dic
 
 
 def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
-    """As `remove_form`, but heights count from the mean line even where no form is removed."""
+    """Profile after `remove_form`; heights count from the mean line even if no form is removed."""
     if form == "none":
         level, removed = remove_form(profile, "mean")
         return level, replace(removed, kind="none")
@@ -315,8 +315,8 @@ def _closed(trace: Profile, source: str) -> tuple[Profile, float]:
 
 
 def _position(scene: SceneBase, trace: Profile, pressed: Profile) -> float:
-    """Of the roller's centre on the trace [m], by default the middle; of a periodic one half a
-    period from its lowest place, where one period then ends and the next begins."""
+    """Position of the roller's centre on the trace [m], by default the middle; of a periodic one
+    half a period from its lowest point, where one period then ends and the next begins."""
     first, last, wanted = float(trace.x[0]), float(trace.x[-1]), scene.load.position
     if wanted is None and scene.periodic:
         lowest = float(pressed.x[pressed.height.argmin()])

@@ -30,7 +30,7 @@ STUDIES = (
 
 
 def meaning(figure: Figure) -> Quantity:
-    """What a figure is of."""
+    """Quantity of a figure, with its meaning."""
     return quantity_of(figure.study, figure.quantity)
 
 

@@ -1,4 +1,4 @@
-"""What the solutions are checked by: the contact conditions.
+"""Checks of the solutions: the contact conditions.
 
 In: the finest level of each model. Out: residuals, relative and zero when exact."""
 

@@ -1,4 +1,4 @@
-"""What was asked: the smooth contact under the same load, the scene's groups, surface and plan.
+"""Problem that was asked: smooth contact under the load, the scene's groups, surface and plan.
 
 In: a problem, its plan, and how far each model is known. Out: figures that need no solution, or of
 which it is a part; what was skipped and assumed, in words; the levels that were planned."""
@@ -93,7 +93,7 @@ def _largest(figures: tuple[Figure, ...] | list[Figure]) -> Uncertainty:
 
 
 def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statement]:
-    """What was assumed and skipped, why refinement stopped, why there are no standard figures."""
+    """Assumptions, what was skipped, why refinement stopped, why there are no standard figures."""
     plan, info = solved.plan, solved.problem.surface.info
     said = [Statement(ASSUMED, text) for text in assumed(solved, before.get(MODEL_ERROR))]
     said += [Statement("skipped", why, step) for step, why in plan.skipped.items()]
@@ -104,7 +104,7 @@ def _statements(solved: Solved, before: Mapping[str, Findings]) -> list[Statemen
 
 
 def assumed(solved: Solved, errors: Findings | None) -> tuple[str, ...]:
-    """What the models assume, the whole model among them where it has more effects."""
+    """Assumptions of the models, the whole model among them where it has more effects."""
     own, problem = solved.plan.assumptions, solved.problem
     if errors is None or not (errors.data.wholes and errors.data.selection.added):
         return own

@@ -1,4 +1,4 @@
-"""What others publish of the same contact, beside both models.
+"""Published figures of the same contact, beside both models.
 
 In: a solved scene with sections [published.NAME]. Out: the difference of each model's figure over
 the published one; that of the model that has what the publication has is judged. What is published
@@ -65,7 +65,7 @@ def _difference(name: str, section: PublishedSection, ours: Figure, judged: bool
 
 
 def _lowering(solved: Solved) -> Iterable[Figure]:
-    """Of finite elements of a body that has a base."""
+    """Lowering by finite elements of a body that has a base."""
     case, thickness = solved.cases[0], solved.problem.scene.body.thickness
     run = case.runs.get("finite_element")
     if run is None or thickness is None:

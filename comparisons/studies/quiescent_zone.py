@@ -127,7 +127,7 @@ def zone_of(problem: Problem, level: Level, every: int = 1) -> dict[str, float]:
 
 
 def asperity_rows(problem: Problem, level: Level) -> list[dict[str, object]]:
-    """By each asperity that touches at |x| <= a, its zone as wide as it: place and length of its
+    """Rows, one an asperity that touches at |x| <= a, of a zone as wide: x and length of its
     contact [m], and the dip of the largest shear below it."""
     a, tau1 = problem.hertz.half_width, level.stress.field.tau1
     rows, window, tau1 = [], problem.window, np.where(np.isfinite(tau1), tau1, -inf)
@@ -147,8 +147,8 @@ def asperity_rows(problem: Problem, level: Level) -> list[dict[str, object]]:
 
 
 def zone_figures(case: Case, run: Solution) -> tuple[tuple[Figure, ...], str]:
-    """Of one model: the dip on its finest level, and its state. Uncertainty: discretisation, far
-    boundary, iteration, and what reading every second row and column of the window changes."""
+    """Figures of a model: the dip on its finest level, and its state. Uncertainty: discretisation,
+    far boundary, iteration, and what reading every second row and column of the window changes."""
     coarse, unsolved = zone_of(case.problem, run.finest, 2), iteration(run.finest.solution)
 
     def how(name: str, value: float) -> Reading:
@@ -179,7 +179,7 @@ def needs(solved: Solved) -> str | None:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Findings:
-    """Of every model at every friction coefficient: the dip, and those below single asperities."""
+    """Dips of every model at every friction coefficient, and those below single asperities."""
     figures, series, states = [], [], []
     units = {"x": "m", "length": "m", "level": "", "state": ""}.items()
     for name in solved.runs:
@@ -206,7 +206,7 @@ class Zone:
 
 
 def zones_of(findings: Findings | None) -> list[Zone]:
-    """By model, then by friction coefficient."""
+    """Zones by model, then by friction coefficient."""
     zones = []
     for said in findings.statements if findings else ():
         if said.name == STATE:

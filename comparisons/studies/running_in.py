@@ -1,4 +1,4 @@
-"""What running-in did to the surface before it was pressed.
+"""Running-in of the surface before it was pressed.
 
 In: a scene that was run in. Out: figures of it, and the volume that each pass moved."""
 

@@ -29,7 +29,7 @@ HELD = 2  # a rough body, and what presses it: each more would add to the memory
 
 @dataclass(frozen=True)
 class BodyPair:
-    """What presses and is pressed."""
+    """Bodies that press and are pressed."""
 
     rough: ElasticBody  # the rough body
     # the roller's own body; None: rigid, or the rough body's block serves for both
@@ -46,7 +46,7 @@ class Latest(OrderedDict):
     """The latest few of what was made, by what it was made of."""
 
     def of(self, make: Callable[[], object], *key: Hashable) -> object:
-        """What was made of a key, made where it is new; the oldest beyond HELD is dropped."""
+        """Object made of a key, made where it is new; the oldest beyond HELD is dropped."""
         if key not in self:
             while len(self) >= HELD:  # before the next is made: memory
                 self.popitem(last=False)
@@ -134,7 +134,7 @@ def rough_support(problem: Problem, spec: BlockSpec, beyond: float = np.inf) -> 
 
 
 def _sides(problem: Problem) -> Sides:
-    """Of a body without width of its own."""
+    """Sides of a body without width of its own."""
     return UNBOUNDED_SIDES if problem.period is None else "tied"
 
 

@@ -74,7 +74,7 @@ class MutualCompliance:
         return any(part.turn for part in self.parts)
 
     def matrix(self) -> np.ndarray:
-        """The same as a matrix (n, n) [m^2/Pa]: one back-substitution a column."""
+        """Operator as a matrix (n, n) [m^2/Pa]: one back-substitution a column."""
         return sum(p.factor * p.compliance.matrix(p.friction) for p in self.parts)
 
 

@@ -230,7 +230,7 @@ def finite_contact(linear: SmallStrainContact) -> FiniteDeformation:
 
 
 def _of_linear(contact: SmallStrainContact) -> dict[str, int]:
-    """What the linear contact took that was begun with."""
+    """Counts of the linear contact that was begun with."""
     return {f"linear_{name}": count for name, count in contact.solution.iterations.items()}
 
 

@@ -96,7 +96,7 @@ def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
 
 
 def rough_key(problem: Problem) -> tuple[Hashable, ...]:
-    """What shapes the rough boundary of a body, beside its flat mesh; nothing where it is flat."""
+    """Key of what shapes a body's rough boundary, beside its flat mesh; empty where it is flat."""
     profile = problem.surface.profile
     if not problem.rough_boundary:
         return ()

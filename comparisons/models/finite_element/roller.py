@@ -25,7 +25,7 @@ FARTHEST = 0.6
 
 
 def roller_key(problem: Problem) -> tuple[Hashable, ...]:
-    """What shapes the boundary of a roller, beside its flat mesh; nothing where it stays flat."""
+    """Key of what shapes a roller's boundary, beside its flat mesh; empty where it stays flat."""
     scene, settings = problem.scene, problem.scene.finite_element
     if not is_shaped(problem):
         return ()

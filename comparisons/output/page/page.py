@@ -105,7 +105,7 @@ def _abreast(drawn: list) -> Iterator[object]:
 
 
 def _listed(made: object, part: slice | None = None) -> list:
-    """What a function gave as a list; of several a part."""
+    """Result of a function as a list; of several a part."""
     if isinstance(made, list):
         return made if part is None else made[part]
     return [] if made is None else [made]
@@ -118,7 +118,7 @@ def drawn_of(run: Run) -> list[str]:
 
 
 def draw(run: Run) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side."""
+    """Results of PICTURES, drawn side by side."""
     names = drawn_of(run)
     load_matplotlib()  # with its settings, once for all copies
     with drawing(), tasks_of_copies(run) as tasks:

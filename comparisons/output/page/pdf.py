@@ -30,7 +30,7 @@ def _starts(program: str) -> bool:
 
 
 def options(profile: str) -> list[str]:
-    """What to start a browser with: no window, nothing of the user's, nothing from the network."""
+    """Options to start a browser with: no window, nothing of the user's, no network."""
     words = ["--headless", "--disable-gpu", "--disable-extensions", "--no-first-run"]
     words += ["--disable-background-networking", f"--user-data-dir={profile}"]
     # as root a browser refuses to start with a sandbox; the pages are this program's own

@@ -86,7 +86,7 @@ class Reports:
     summary: Path | None  # the page over all
 
     def as_dict(self) -> dict:
-        """What was made, for JSON."""
+        """Pages that were made, for JSON."""
         runs = [
             {
                 "scene": report.title,

@@ -1,1 +1,1 @@
-"""What the fields of a scene say of themselves: JSON Schema, messages, tables of the reference."""
+"""Fields of a scene in words and as data: JSON Schema, messages, tables of the reference."""

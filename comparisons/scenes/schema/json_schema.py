@@ -58,7 +58,7 @@ def schema_for_editors(kind: type[BaseModel]) -> dict:
 
 
 def forms(node: Mapping, root: Mapping) -> list[Mapping]:
-    """What a part of a schema allows one of, with references followed."""
+    """Schemas that a part of a schema allows one of, with references followed."""
     if "$ref" in node:
         node = root["$defs"][node["$ref"].rpartition("/")[2]]
     parts = node.get("anyOf") or node.get("allOf")  # pydantic before 2.10 wraps a reference
@@ -86,13 +86,13 @@ def choices_of(form: Mapping) -> list:
 
 
 def allowed(kind: type[BaseModel], *place: str) -> str:
-    """What a field of a section may hold, in words."""
+    """Words on what a field of a section may hold."""
     root = json_schema(kind)
     return words(node_at(place, root), root)
 
 
 def words(node: Mapping, root: Mapping) -> str:
-    """What a part of a schema allows, in words."""
+    """Words on what a part of a schema allows."""
     if "title" in node:
         return node["title"]
     example = f", such as {json.dumps(node['examples'][0])}" if "examples" in node else ""

@@ -62,7 +62,7 @@ def _found(problem: Mapping, tables: object) -> tuple[Place, object]:
 
 
 def _is_missing(problem: Mapping) -> bool:
-    """Whether a field is; a list may be too short."""
+    """True where a field is missing; a list may be too short."""
     return problem["type"] == "missing" and isinstance(problem["loc"][-1], str)
 
 
@@ -87,7 +87,7 @@ def _wrong(place: Place, entry: object, problem: Mapping, root: Mapping) -> str:
 
 
 def _allowed(place: Place, node: Mapping, root: Mapping) -> str:
-    """What a node may hold, in words: a section, or a field."""
+    """Words on what a node may hold: a section, or a field."""
     named = "additionalProperties" in root["properties"].get(place[0], {})  # [answers.NAME]
     is_section = len(place) <= 1 + named and forms(node, root)[0].get("type") == "object"
     return f"a section [{'.'.join(place)}]" if is_section else words(node, root)

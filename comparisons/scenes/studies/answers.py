@@ -84,7 +84,7 @@ class AnswerSection(SceneSection):
     scatter: Fraction | None = optional("of measured data, relative")
 
     def unit(self, kind: str, column: str = "") -> float:
-        """In SI, that of a length or a stress: as `units` has it, else as the column's name does,
+        """Unit of a length or a stress in SI: as `units` has it, else as the column's name does,
         else 1. Raises ValueError for a column that says it has another dimension."""
         dimension, unit = UNITS[kind], getattr(self.units, kind, None)
         try:

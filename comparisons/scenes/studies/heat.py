@@ -62,8 +62,8 @@ class HeatSection(SceneSection):
 
     @classmethod
     def followed(cls, tables: Mapping) -> Mapping:
-        """With the constants of bodies that are named after a solid; expansions where stresses are
-        asked for."""
+        """Fill in the constants of bodies that are named after a solid; expansions where stresses
+        are asked for."""
         heat, follows = tables.get("heat"), {}
         if not isinstance(heat, Mapping):
             return tables

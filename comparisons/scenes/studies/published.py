@@ -22,7 +22,7 @@ DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys((*LENGTHS, *LOWE
 
 
 class PublishedSection(SceneSection):
-    """What others state of the same contact, one table a figure; NAME is any text."""
+    """Figures that others state of the same contact, one table a figure; NAME is any text."""
 
     quantity: Literal[tuple(DIMENSIONS)] = Field(
         description="which figure; `lowering` is that of the body's surface under the roller "

@@ -52,7 +52,7 @@ class Spread:
         return self.range or (nominal - far, nominal + far)
 
     def plain(self) -> dict | str | float:
-        """As a scene file has it."""
+        """Value as a scene file has it."""
         if self.range:
             return {"range": list(self.range)}
         return f"{100 * Decimal(repr(self.deviation))} %" if self.relative else self.deviation
@@ -139,7 +139,7 @@ class ScatterSection(SceneSection):
 
     @property
     def inputs(self) -> dict[str, Spread]:
-        """What is uncertain, by name; of the noise its deviation [m]."""
+        """Uncertain inputs by name; the noise by its deviation [m]."""
         spreads = {name: spread for name, spread in self if isinstance(spread, Spread)}
         return spreads if self.noise is None else spreads | {"noise": Spread(self.noise)}
 
@@ -180,7 +180,7 @@ class ScatterSection(SceneSection):
 
 
 def _limits(name: str, value: float, scene: SceneSection) -> str:
-    """What is allowed where an input may not have the value; empty where it may."""
+    """Limits of an input that may not have the value; empty where it may."""
     if name not in FIELDS:
         return "" if value > 0.0 else "allowed is above 0"
     section, field = FIELDS[name]

@@ -1,4 +1,4 @@
-"""What would explain that an answer's pressures differ: other axes, signs, units, a factor of two.
+"""Hints on why an answer's pressures differ: other axes, signs, units, a factor of two.
 
 Each explanation is tried on the pressures. It is named where the relative L2 norm of the difference
 that it leaves is at most EXPLAINS of that before, and no other leaves clearly less. Units and signs
@@ -40,8 +40,8 @@ PROBLEMS = (  # with another load, or another radius
 
 @dataclass(frozen=True)
 class Hint:
-    """What explains a difference in the pressures: its kind, by how much [SI], in words, and the
-    relative L2 norm of the difference that it leaves."""
+    """Hint on a difference in the pressures: its kind, by how much [SI], in words, and the relative
+    L2 norm of the difference that it leaves."""
 
     kind: str
     value: float
@@ -50,7 +50,7 @@ class Hint:
 
 
 def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
-    """What explains the difference of an answer's pressures to a model's, where there is one."""
+    """Hints that explain the difference of an answer's pressures to a model's, if there are any."""
     before, named = _off(answer, level), []
     if before <= DISTINCT:
         return ()
@@ -118,7 +118,7 @@ def _moved(answer: Answer, problem: Problem, level: Level) -> Iterator[Hint]:
 
 
 def _shift(answer: Answer, level: Level) -> float:
-    """By how much [m] the answer lies towards +x of a level."""
+    """Shift [m] of the answer towards +x of a level."""
     ends = _ends(level.grid.x, level.solution.pressure)
     middle, reach = _ends(answer.x, answer.pressure).mean() - ends.mean(), FARTHEST * np.ptp(ends)
     tried = np.append(np.linspace(-0.5, 0.5, TRIED) * reach, 0.0) + np.array([[0.0], [middle]])

@@ -54,7 +54,7 @@ def _chosen(count: int, step: int | None) -> int:
 
 
 def _grid(path: Path, step: int | None) -> "UnstructuredGrid":
-    """What is in a file, at a step in time."""
+    """Grid in a file, at a step in time."""
     import pyvista
 
     kind = path.suffix.lower()

@@ -43,7 +43,7 @@ u_val: root of the sum of squares of u_num, u_input and u_D."""
 
 
 def answers_of(run: Run) -> Mapping[str, tuple[Answer, ...]]:
-    """By name, each on its resolutions; empty without any."""
+    """Answers by name, each on its resolutions; empty without any."""
     return run.data(NAME) or {}
 
 
@@ -68,7 +68,7 @@ def verdicts(run: Run) -> list[tuple[str, str]]:
 
 
 def answer_verdict(run: Run, answer: str) -> tuple[str, str]:
-    """Whether an answer agrees with its reference in all that is judged of it, in a word, and a
+    """Verdict in a word on whether an answer agrees with its reference in all that is judged, and a
     sentence with the figure that decides."""
     judged = [f for f in run.figures.of(study=NAME, source=answer) if f.bounds is not None]
     figure = deciding(judged)
@@ -96,7 +96,7 @@ def answer_table(run: Run, answer: str, brief: bool = False) -> TextTable:
 
 
 def answer_facts(run: Run, answer: str) -> list[tuple[str, str]]:
-    """What an answer owes to no mesh: its load, the contact conditions, what explains it."""
+    """Facts of an answer that owe nothing to a mesh: load, contact conditions, what explains it."""
     findings, known = run.findings[NAME], run.figures.of(study=NAME, source=answer)
     spacing = with_unit(known.one(quantity="spacing").value, "m", 3)
     balance = percent(known.one(quantity="load_balance").value, signed=True, digits=3)

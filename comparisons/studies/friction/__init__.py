@@ -1,4 +1,4 @@
-"""What friction does by itself: surfaces that it moves, and contacts that it holds."""
+"""Friction by itself: surfaces that it moves, and contacts that it holds."""
 
 from comparisons.judging.study import Study
 from comparisons.studies.friction import show

@@ -34,8 +34,8 @@ SETTLED = 1e-6
 def finite_element_slip(
     problem: Problem, level: Level, increments: int, half_block: bool = False
 ) -> SlippedLevel:
-    """Of the finite elements of a level, made again; a `half_block` ends an unbounded body at half
-    of its size."""
+    """Slip in the finite elements of a level, made again; a `half_block` ends an unbounded body at
+    half of its size."""
     grid, operator = level.grid, compliance_again(problem, level, half_block)
     slipped = slipped_level(problem, grid, finite_element_pair(problem, operator, grid), increments)
     if problem.scene.body.thickness is not None:
@@ -78,8 +78,8 @@ def finite_element_pair(problem: Problem, operator: MutualCompliance, grid: HatG
 def _with_mesh_stress(
     problem: Problem, operator: MutualCompliance, slipped: SlippedLevel
 ) -> SlippedLevel:
-    """With the largest stresses of the rough body, recovered from displacements under the
-    tractions, and the bulk stress, in a coating that of the strain below."""
+    """Add the largest stresses of the rough body, recovered from displacements under the tractions,
+    and the bulk stress, in a coating that of the strain below."""
     rough, body, scene = operator.rough, operator.rough.body, problem.scene
     layer = scene.coating and scene.coating.material.plane_strain_modulus
     base = scene.body.material.plane_strain_modulus

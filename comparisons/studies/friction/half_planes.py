@@ -112,8 +112,8 @@ class SlippedLevel:
         return known
 
     def amplitude(self, x: np.ndarray) -> np.ndarray:
-        """Of slip (k,) [m] at x (k,) [m]: half of what a cycle runs through; without one what was
-        slipped, as much as in a cycle between the load and its opposite."""
+        """Amplitude of slip (k,) [m] at x (k,) [m]: half of what a cycle runs through; without one
+        what was slipped, as much as in a cycle between the load and its opposite."""
         before = last_visit(self.path)
         span = np.abs(self.slips[-1])
         if before is not None:
@@ -127,7 +127,7 @@ class SlippedLevel:
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
-        """Of the largest [m]."""
+        """Positions of the largest stresses [m]."""
         if self.tau1 is None:
             return {}
         largest = float(self.x[np.nanargmax(self.surface.sx)])
@@ -140,7 +140,7 @@ def last_visit(path: tuple[float, ...]) -> int | None:
 
 
 def half_plane_slip(problem: Problem, level: Level, increments: int) -> SlippedLevel:
-    """Of two half-planes on the pressure elements of a level."""
+    """Slip of two half-planes on the pressure elements of a level."""
     grid, hardness = level.grid, problem.constraints().hardness
     gap = grid.hat_integrals(problem.gap, problem.knots)
     bodies = problem.modulus, problem.dundurs_beta, problem.largest_friction, hardness
@@ -150,7 +150,7 @@ def half_plane_slip(problem: Problem, level: Level, increments: int) -> SlippedL
         return slipped
 
     def dragged(number: int) -> Beside:
-        """Of all but the pressure."""
+        """Stresses of all but the pressure."""
         ends = ends_stress(problem, grid, slipped.states[number], bulk_stress(problem, number))
         line = grid.x, slipped.states[number].traction
         return lambda *at: friction_stress_at(*line, *at).traction.plus(1.0, ends(*at))
@@ -171,8 +171,8 @@ def with_surface(
     stress: Callable[[int, np.ndarray], StressState],
     cusps: bool = True,
 ) -> SlippedLevel:
-    """With the largest tau1 at the end, and with stresses of the surface at places of grid, window
-    and about ends of contact, where sx is largest: under the last load, and at the other end of the
+    """Add the largest tau1 at the end, and stresses of the surface at the x of grid, window and
+    about ends of contact, where sx is largest: under the last load, and at the other end of the
     last cycle, where the load is farthest from the final one.
 
     stress  (k,) [Pa] of the surface under a load of the path, by its number, at x (k,) [m]
@@ -197,7 +197,7 @@ def with_surface(
 
 
 def bulk_stress(problem: Problem, number: int) -> float:
-    """Of the body under a load of the history [Pa]."""
+    """Bulk stress of the body under a load of the history [Pa]."""
     slip = problem.scene.partial_slip
     return slip.bulk_stress * slip.path[number] / slip.largest
 
@@ -260,8 +260,8 @@ def traction_share(state: SlipState, grid: HatGrid) -> Callable[[np.ndarray], np
 
 
 def ends_stress(problem: Problem, grid: HatGrid, state: SlipState, bulk: float = 0.0) -> Beside:
-    """What hats leave out next to the ends of contact, where q / p is that of the nearest node, and
-    the bulk's sx [Pa]."""
+    """Stresses that hats leave out next to the ends of contact, where q / p is that of the nearest
+    node, and the bulk's sx [Pa]."""
     ends, share = ends_of(problem, grid, state.normal), traction_share(state, grid)
 
     def stress(x: np.ndarray, z: np.ndarray) -> StressState:

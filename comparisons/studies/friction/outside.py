@@ -23,8 +23,8 @@ def outside_figures(
     model: Figure,
     tolerance: float,
 ) -> Iterator[Figure]:
-    """Of the finest answer of each name that has tractions: the length that sticks, its difference
-    from a `model`'s, and the relative L2 norm of both tractions' difference on its finest level.
+    """Figures of the finest answer of each name that has tractions: the length that sticks, its
+    difference from a `model`'s, and the relative L2 norm of both tractions' difference there.
 
     Both lengths are read in one way, each end of a zone to the spacing of the answer's points. The
     norm's uncertainty is what these points leave out of the model's own traction, and what the

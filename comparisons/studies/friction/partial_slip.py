@@ -76,7 +76,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 
 
 def solvers(solved: Solved) -> dict[str, Solve]:
-    """What loads a level of each model that was run, and can be."""
+    """Functions that load a level of each model that was run, where there is one."""
     solvers: dict[str, Solve] = {"half_plane": half_plane_slip}
     if "finite_element" in solved.runs and not solved.problem.scene.finite_element.plastic:
         from comparisons.studies.friction.finite_elements import finite_element_slip
@@ -97,7 +97,7 @@ def _loaded(run: Solution, load: Solve, count: int) -> Solution:
 
 
 def slip_figures(case: Case, models: Sequence[Solution]) -> dict[str, Figure]:
-    """By a model, or both models' difference over the finite elements' figure."""
+    """Figures of a model, or both models' difference over the finite elements' figure."""
     slip, meshed = case.problem.scene.partial_slip, case.problem.scene.finite_element
     finest, apart = [model.finest for model in models], len(models) > 1
     ends = [level.figures for level in finest]

@@ -58,7 +58,7 @@ def slip_facts(run: Run) -> list[tuple[str, str]]:
 
 
 def next_step(run: Run) -> str:
-    """What would decide what is inconclusive, or what a difference means, as a clause."""
+    """Clause on what would decide what is inconclusive, or on what a difference means."""
     known = run.figures.of(study=NAME, source=MODELS[0], against=MODELS[1])
     figures = [figure for figure in known if figure.verdict != "agree"]
     if not figures:

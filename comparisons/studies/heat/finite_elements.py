@@ -49,7 +49,7 @@ LAYERS, GROWTH = 1.0, 0.28  # of `meshes.thermal_layer`, on the coarsest level
 def finite_element_heat(
     problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
 ) -> HeatedContact:
-    """As `half_space_heat`, under the pressures of a finite-element level; `block` scales the mesh
+    """`half_space_heat` under the pressures of a finite-element level; `block` scales the mesh
     of an unbounded body; `without` names features (`what_it_contains`) that are left out."""
     return solved_heat(problem, level, block, without)[0]
 
@@ -144,7 +144,7 @@ def _conduction(
 
 
 def finite_element_stress(problem: Problem, level: Level, beyond: float = np.inf) -> HeatedStress:
-    """Of a level; an unbounded body is held `beyond` this part of its mesh."""
+    """Stress on a level; an unbounded body is held `beyond` this part of its mesh."""
     heat, friction, field = problem.scene.heat, problem.largest_friction, level.mesh_field
     made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
     body = elastic_body(*made, degree=field.degree, coating=field.coating)

@@ -46,7 +46,7 @@ SEEN, PLACES = 20.0, 60
 
 @dataclass(frozen=True)
 class HeatedContact:
-    """What friction heats both surfaces by, at the nodes (n,) of a level."""
+    """Heat that friction brings into both surfaces, at the nodes (n,) of a level."""
 
     x: np.ndarray  # [m]
     heat: np.ndarray  # [W/m^2] mu p V
@@ -67,7 +67,7 @@ class HeatedContact:
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
-        """Of the largest [m]."""
+        """Position of the largest [m]."""
         return {"flash_temperature": (float(self.x[self._hottest]),)}
 
     @property
@@ -116,7 +116,7 @@ def peclet_numbers(problem: Problem) -> dict[str, float]:
 
 
 def what_it_contains(problem: Problem) -> dict[str, str]:
-    """What the finite elements have and the half-space has not, in words."""
+    """Features that the finite elements have and the half-space has not, in words."""
     scene, features = problem.scene, {}
     if scene.body.thickness is not None:
         how = "insulated" if scene.heat.base == "insulated" else "at its bulk temperature"
@@ -170,7 +170,7 @@ class HeatedStress:
 
     @property
     def figures(self) -> dict[str, float]:
-        """With heat and without [Pa], [m]. Tension is 0 where the surface is compressed."""
+        """Figures with heat and without [Pa], [m]. Tension is 0 where the surface is compressed."""
         return {
             f"{name}{case}": value
             for case, tau1, sx in zip(("", WITHOUT), self.tau1, self.sx, strict=True)
@@ -181,7 +181,7 @@ class HeatedStress:
 
     @property
     def places(self) -> dict[str, tuple[float, ...]]:
-        """Of the largest with heat [m]."""
+        """Positions of the largest with heat [m]."""
         tau1, sx = self.tau1[0], self.sx[0]
         tensile = {"sx_heated": (float(self.x[sx.argmax()]),)} if sx.max() > 0.0 else {}
         return {"tau1_heated": (tau1.x, tau1.z)} | tensile
@@ -195,7 +195,7 @@ def surface_places(problem: Problem, level: Level) -> np.ndarray:
 
 
 def half_plane_stress(problem: Problem, level: Level) -> HeatedStress:
-    """Of the half-plane on a level of its own."""
+    """Stress of the half-plane on a level of its own."""
     friction, grid, solution = problem.largest_friction, level.grid, level.solution
     close = ends_of(problem, grid, solution).at(friction)
     thermal = _thermal(problem, level)

@@ -49,7 +49,7 @@ def note(run: Run) -> str:
 
 
 def heat_facts(run: Run) -> list[tuple[str, str]]:
-    """What moves, and what the difference of the largest rise is made of."""
+    """Facts on what moves, and on the parts of the difference of the largest rise."""
     study, heat = run.data(NAME), run.problem.scene.heat
     body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
     reach = with_unit(reach_of(run.problem), "m")

@@ -107,7 +107,7 @@ def _heated(
     by_elements: Callable[..., Heated],
     **smaller: float,
 ) -> list[Solution]:
-    """What each model finds on its levels; finite elements also on the coarsest in a `smaller`
+    """Heat of each model on its levels; of finite elements also on the coarsest in a `smaller`
     block."""
     models, solvers = [], dict(zip(MODELS, (by_half_plane, by_elements), strict=True))
     for name, run in case.runs.items():
@@ -123,9 +123,9 @@ def _heated(
 def _figures(
     case: Case, models: Sequence[Solution], parts: Mapping[str, Sequence[Part]] = {}
 ) -> list[Figure]:
-    """By each model, with heat and without, and their differences. Both models' uncertainties add
-    up: next to the ends of contact, where the flux is infinite, they discretise it each in its own
-    way. All is over the finite elements' value; of stresses over that without heat where it is
+    """Figures of each model, with heat and without, and their differences. Uncertainties of both
+    add up: next to the ends of contact, where the flux is infinite, they discretise it each in its
+    own way. All is over the finite elements' value; of stresses over that without heat where it is
     larger, as heat may cancel it; of depths over a."""
     reference, a = models[-1].finest.figures, case.problem.hertz.half_width
 
@@ -176,8 +176,8 @@ def _by_model(case: Case, model: Solution, sizes: Mapping[str, float]) -> dict[s
 def _parts(
     case: Case, models: Sequence[Solution], features: Iterable[str]
 ) -> dict[str, list[Part]]:
-    """By figure: of each of the `features` that the finite elements alone have what it is without
-    that, over what it is with it, less 1; of both models' difference also what their pressures
+    """Parts by figure: for each of the `features` that the finite elements alone have, the figure
+    without it over that with it, less 1; of both models' difference also what their pressures
     make."""
     from comparisons.studies.heat.finite_elements import finite_element_heat
 

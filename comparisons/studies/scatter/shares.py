@@ -22,8 +22,8 @@ ROUNDING = 1e-9  # of a figure: what varies less does not vary
 
 @dataclass(frozen=True)
 class Shares:
-    """Of the variance, by input (d,): first-order, total, and half the width of either's 95 %
-    interval, by bootstrap."""
+    """Shares of the variance, by input (d,): first-order, total, and half the width of either's
+    95 % interval, by bootstrap."""
 
     first: np.ndarray
     total: np.ndarray
@@ -51,9 +51,9 @@ def designs(samples: int, inputs: int, seed: int) -> np.ndarray:
 
 
 def shares(values: np.ndarray, scores: np.ndarray, seed: int = 0) -> Shares | None:
-    """Of a figure's values (2 + d, n) on the designs, whose inputs have `scores` (2 + d, n, d), of
-    any mean and size. Samples with a nan on any design are left out. None where nothing varies, or
-    hardly a sample is left."""
+    """Shares from a figure's values (2 + d, n) on the designs, whose inputs have `scores` (2 + d,
+    n, d), of any mean and size. Samples with a nan on any design are left out. None where nothing
+    varies, or hardly a sample is left."""
     known = np.all(np.isfinite(values), axis=0)
     values, scores = values[:, known], scores[:, known]
     count, inputs = values.shape[1], scores.shape[-1]

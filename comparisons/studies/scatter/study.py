@@ -1,4 +1,4 @@
-"""What a scene's uncertain inputs do to the half-plane's figures: their spread over samples.
+"""Scatter of the half-plane's figures over samples of a scene's uncertain inputs.
 
 A sample is a point of the unit cube, which stands for a scene with other inputs. It is solved by
 the half-plane on its coarsest pressure elements, whose error is in every sample alike; figures are
@@ -206,9 +206,9 @@ def _solve_batch(
     places: np.ndarray,
     scale: float | None,
 ) -> tuple[list[list | None], np.ndarray, list[str]]:
-    """What the half-plane finds at points (n, d): figures (f, q) by friction coefficient and
-    quantity, None without a solution; pressures (n, k) [Pa] at places (k,) [m], then nan; and why
-    there is none. `scale` of the layer's load where the approach is prescribed, else None."""
+    """Results of the half-plane at points (n, d): figures (f, q) by friction coefficient and
+    quantity, None without a solution; pressures (n, k) [Pa] at x (k,) [m], then nan; and why there
+    is none. `scale` of the layer's load where the approach is prescribed, else None."""
     here.callback("half-plane: uncertain inputs")
     figures, pressures, failures = [], np.full((len(points), len(places)), np.nan), []
     for number, point in enumerate(points):
@@ -263,7 +263,7 @@ def _in_unit(figure: Figure, *values: float) -> str:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """Of every judged figure at the friction coefficient that decides: what the inputs do."""
+    """Lines: what the inputs do to each judged figure at the friction coefficient that decides."""
     said = []
     for figure in run.figures.of(study=NAME, friction=run.deciding_friction):
         if figure.quantity in run.problem.scene.tolerances:

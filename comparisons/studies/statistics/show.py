@@ -63,7 +63,7 @@ def blocks(run: Run) -> list[Block]:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """Of the scene's own load, and of its asperities."""
+    """Lines on the scene's own load, and on its asperities."""
     findings, (*_, patches) = run.findings[NAME], _patches(run.findings[NAME])
     first = {n: stated_text(c)[0] for n, c in findings.table("loads").columns.items()}
     theory, random = (first[f"figures.{source}.{PRESSURE}"] for source in ("moments", "random"))
@@ -76,7 +76,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 
 def _patches(findings: Findings) -> list[Series]:
-    """By model."""
+    """Patches by model."""
     return [series for series in findings.series if series.name == "patches"]
 
 
@@ -95,7 +95,7 @@ def statistics_pictures(run: Run) -> list[style.Picture]:
 
 
 def _over_load(run: Run) -> style.Picture:
-    """As figure 4.5 of Seireg, with what the theory is held against."""
+    """Figure 4.5 of Seireg, with what the theory is held against."""
     findings = run.findings[NAME]
     columns = findings.table("loads").columns
     load, hertz = columns["load"].numbers, columns["half_width"].numbers

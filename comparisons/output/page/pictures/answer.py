@@ -1,4 +1,4 @@
-"""What a reader sees first: each judged figure's error against its tolerance, and the run in one
+"""Pictures seen first: each judged figure's error against its tolerance, and the run in one
 picture, everything over the same x."""
 
 from typing import TYPE_CHECKING

@@ -62,7 +62,7 @@ def pressure_picture(run: Run) -> style.Picture:
 
 
 def close_up_picture(run: Run) -> style.Picture:
-    """The same around the highest pressure; of a smooth body, around the contact's edge."""
+    """Pressures and surfaces about the highest pressure; of a smooth body, about an edge."""
     levels = run.levels(run.deciding_friction)
     name, level = list(levels.items())[-1]
     pitch = level.grid.pitch

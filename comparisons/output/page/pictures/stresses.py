@@ -62,7 +62,7 @@ COMPONENTS = (
 
 
 def field_pictures(run: Run) -> list[style.Picture]:
-    """Of each component one for every friction coefficient; nothing without fields."""
+    """Pictures of each component, one a friction coefficient; none without fields."""
     if run.window is None:
         return []
     return [

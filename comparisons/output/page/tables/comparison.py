@@ -56,12 +56,12 @@ def capped(run: Run, difference: Figure) -> str:
 
 
 def first_model(run: Run) -> str:
-    """What is compared with the finite elements."""
+    """Model that is compared with the finite elements."""
     return LABELS[run.compared[0].source] if run.compared else LABELS["half_plane"]
 
 
 def reference_of(run: Run, quantity: str) -> str:
-    """What the finite elements solve: the half-plane's problem, or that with effects that bear on
+    """Problem that the finite elements solve: the half-plane's, or that with effects that bear on
     the quantity; those without an estimate bear on all, and all on norms."""
     selection = run.data(MODEL_ERROR).selection
     named = [

@@ -43,7 +43,7 @@ def problem_sheet(run: Run) -> dict[str, Rows]:
 
 
 def problem_items(run: Run) -> list[Heading | Names | TextTable]:
-    """The same for the page, with the surface's roughness."""
+    """Tables of the problem for the page, with the surface's roughness."""
     geometry, *others = [(Heading(name), Names(rows)) for name, rows in problem_sheet(run).items()]
     info, roughness = run.problem.surface.info, ()
     if info is not None:
@@ -54,7 +54,7 @@ def problem_items(run: Run) -> list[Heading | Names | TextTable]:
 
 
 def facts(run: Run) -> Names:
-    """What was pressed on what, in a few rows."""
+    """Bodies, surface and load in a few rows."""
     problem, scene, info = run.problem, run.problem.scene, run.problem.surface.info
     roller = "rigid" if scene.roller.rigid else solid_text(scene.roller)
     radius = "" if scene.periodic else f"R = {as_written(scene.roller.radius, 'm')}, "
@@ -126,7 +126,7 @@ def in_mm(cutoff: float) -> str:
 
 
 def roughness_notes(info: ProfileInfo) -> Rows:
-    """What both columns of the same are of."""
+    """Notes on both columns of the roughness."""
     off = "" if info.form.kind == "none" else f" without its {info.form.kind}"
     pressed = ("as pressed", f"the whole trace{off}")
     if info.standard is None:

@@ -130,7 +130,7 @@ def row_name(run: Run, name: str, friction: float) -> str:
 
 
 def signed(run: Run) -> Names:
-    """What a person signs who has read the report: the question, how sure, by what and when."""
+    """Rows that a person signs who has read the report: question, how sure, by what and when."""
     scene, errors, made = run.problem.scene, run.model_errors, run.record.get("made", {})
     judged = dict.fromkeys(
         f"{label(e.quantity)} within {percent_as_written(e.tolerance)}" for e in errors
@@ -169,7 +169,7 @@ def _listed(known: Mapping[str, object]) -> str:
 
 
 def commands(run: Run) -> list[tuple[str, str]]:
-    """What to type to get this again."""
+    """Commands that give this again."""
     scene, plan = run.problem.scene, run.plan
     launcher = PROJECT / "crosscheck"  # of a checkout, which is on no path
     program = shlex.quote(str(launcher)) if launcher.is_file() else "crosscheck"
