@@ -1,4 +1,4 @@
-"""What every test needs of the process that it runs in, and its random numbers."""
+"""Process and random numbers that every test needs."""
 
 import os
 import signal
@@ -63,5 +63,5 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 @pytest.fixture
 def rng() -> np.random.Generator:
-    """The same numbers in each test, whichever ran before."""
+    """Random numbers, equal in each test, whichever ran before."""
     return np.random.default_rng(29)

@@ -58,7 +58,7 @@ def level_cost(name: str, number: int) -> LevelCost:
 
 
 def level_costs(names: list[str], levels: int) -> list[LevelCost]:
-    """Of each scene's first levels."""
+    """Costs of each scene's first levels."""
     costs = []
     for name, number in product(names, range(1, levels + 1)):
         with ProcessPoolExecutor(1, get_context("spawn")) as alone:

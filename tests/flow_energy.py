@@ -111,7 +111,7 @@ def _balance(body: PlasticBody, displacement: np.ndarray) -> tuple[np.ndarray, n
 
 
 def _flowed(body: PlasticBody, plastic: np.ndarray) -> np.ndarray:
-    """What flow has taken (3m,) [J/m^3] to the accepted state, of plastic strains (3m, 4)."""
+    """Energy (3m,) [J/m^3] that flow took up to the accepted state, of plastic strains (3m, 4)."""
     (at, weight), k = GAUSS, body.state.equivalent
     hardening = body.metal.hardening
     work = 0.5 * k * (hardening.stress(0.5 * np.outer(k, 1.0 + at)) @ weight)

@@ -1,4 +1,4 @@
-"""What programs share that measure the project: a process on one thread, tables and demands."""
+"""Parts of programs that measure the project: a process on one thread, tables and demands."""
 
 import os
 import resource
@@ -14,7 +14,7 @@ Result = TypeVar("Result")
 
 
 class Demand(NamedTuple):
-    """What a benchmark requires, in words, and whether it holds."""
+    """Demand of a benchmark, in words, and whether it holds."""
 
     holds: bool
     text: str
@@ -52,7 +52,7 @@ def mesh_seconds() -> float:
 
 
 def processor_seconds() -> float:
-    """Of this process, of those that it has started and that have ended, and of gmsh's meshes."""
+    """Seconds of this process, of those that it has started and that have ended, and of gmsh."""
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return process_time() + children.ru_utime + children.ru_stime + mesh_seconds()
 

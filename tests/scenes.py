@@ -88,7 +88,7 @@ def reference(name: str) -> dict:
 def python(
     *words: object, cwd: Path = PROJECT, env: Mapping[str, str] = os.environ, **variables: str
 ) -> subprocess.CompletedProcess:
-    """What another process of this Python says, which finds the project from any folder; with more
+    """Run another process of this Python, which finds the project from any folder; with more
     variables. It gets nothing of what MPI, used in this process, would hand on."""
     return subprocess.run(
         [sys.executable, *map(str, words)],

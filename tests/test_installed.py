@@ -1,4 +1,4 @@
-"""What a wheel holds, and `import crosscheck` from it beside modules of the user's."""
+"""Contents of a wheel, and `import crosscheck` from it beside modules of the user's."""
 
 import os
 import shutil
@@ -58,7 +58,7 @@ def installed(tmp_path_factory) -> Path:
 
 
 def script(text: str, folder: Path, installed: Path) -> subprocess.CompletedProcess:
-    """As a user runs his own, whose folder is then first on the path."""
+    """Run a user's own script, whose folder is then first on the path."""
     (folder / "his_script.py").write_text(text)
     variables = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
     one = {"PYTHONPATH": str(installed), "OMP_NUM_THREADS": "1"}

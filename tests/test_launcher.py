@@ -139,7 +139,7 @@ def checkout():
 
 
 def ordinary_user(checkout: Checkout) -> list[str]:
-    """What to put before a command so that it does not run as root."""
+    """Words before a command so that it does not run as root."""
     if os.geteuid() != 0:
         return []
     for path in (checkout.base, *checkout.base.rglob("*")):

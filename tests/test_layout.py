@@ -121,7 +121,7 @@ BY_NAME = {dotted_name(path): path for path in MODULES}
 
 @cache
 def graph() -> dict[str, set[str]]:
-    """What each module imports of ours."""
+    """Imports of ours by each module."""
     return {name: imports_of_ours(path) for name, path in BY_NAME.items()}
 
 
@@ -156,7 +156,7 @@ def test_a_folder_is_read_at_a_glance(folder):
 
 
 def resolves(name: str) -> bool:
-    """Whether a dotted name is a folder, a module, or what stands in one."""
+    """True for the dotted name of a folder, a module, or what stands in one."""
     if (PROJECT / name.replace(".", "/")).is_dir():
         return True
     try:
@@ -166,7 +166,7 @@ def resolves(name: str) -> bool:
 
 
 def test_names_of_modules_in_words_resolve():
-    """In docstrings, comments and pages; `package.module` or `package.module.name`."""
+    """Names in docstrings, comments and pages; `package.module` or `package.module.name`."""
     sources = [
         *MODULES,
         *(PROJECT / "tests").rglob("*.py"),
@@ -183,7 +183,7 @@ def test_names_of_modules_in_words_resolve():
 
 
 def test_a_class_has_its_name_to_itself():
-    """In the whole project: a reader who looks for it finds one."""
+    """A reader who looks for a class finds one in the project."""
     where: dict[str, list[str]] = {}
     for name, path in BY_NAME.items():
         for node in ast.parse(path.read_text()).body:
@@ -217,7 +217,7 @@ def test_command_leads_to_the_function_that_it_names():
 
 
 def test_top_level_holds_only_what_belongs_there():
-    """What is under version control there; without git, all but what it is to ignore."""
+    """Files under version control there; without git, all but what it is to ignore."""
     listing = ""
     if shutil.which("git"):
         command = ["git", "ls-files", "-z"]
@@ -230,7 +230,7 @@ def test_top_level_holds_only_what_belongs_there():
 
 
 def test_the_citation_is_of_this_project():
-    """What no parser of YAML is needed for; `cffconvert --validate` checks the rest."""
+    """Checks that need no parser of YAML; `cffconvert --validate` checks the rest."""
     lines = (PROJECT / "CITATION.cff").read_text().splitlines()
     citation = dict(
         line.split(": ", 1) for line in lines if not line.startswith(" ") and ": " in line

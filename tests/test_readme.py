@@ -72,7 +72,7 @@ def call(arguments: list[str], folder: Path) -> Call:
     outcomes, original = [], run_module.solve_scene
 
     def watched(scene: Scene, *arguments: object) -> Run:
-        """With fewer points of the fields, which take half the time of all effects."""
+        """Run with fewer points of the fields, which take half the time of all effects."""
         outcomes.append(original(scene.changed("stress.points", [150, 60]), *arguments))
         return outcomes[-1]
 
@@ -125,7 +125,7 @@ def test_init_is_the_door_that_it_says(folder, tmp_path):
 
 
 def test_commands_in_passing_work(tmp_path):
-    """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
+    """The doctor's findings, and the studies, are tested with them: they take seconds and more."""
     named = {
         command.split()[0]
         for command in re.findall(r"`\./crosscheck ([^`]+)`", README + GUIDE + REFERENCE + LIMITS)

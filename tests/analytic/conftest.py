@@ -60,7 +60,7 @@ class Roller:
         constraints: Constraints | None = None,
         start: np.ndarray | None = None,
     ) -> ContactSolution:
-        """The same while it slides, with friction times Dundurs' beta."""
+        """Contact while it slides, with friction times Dundurs' beta."""
         return solve_coupled(
             coupled_half_planes(grid.count, grid.pitch, self.modulus, friction_dundurs),
             grid.hat_integrals(gap),

@@ -22,7 +22,7 @@ from meshes.build import build_block
 
 @pytest.fixture(scope="module", params=[1, 2, 3])
 def degree(request) -> int:
-    """Of the displacement's elements."""
+    """Degree of the displacement's elements."""
     return request.param
 
 

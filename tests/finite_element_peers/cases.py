@@ -58,7 +58,7 @@ class BlockCase(NamedTuple):
 
 
 def hertz() -> HertzContact:
-    """Of the parabola on a half-plane."""
+    """Hertz's contact of the parabola on a half-plane."""
     modulus = MATERIAL.plane_strain_modulus
     return hertz_from_peak_pressure(0.5 * SLOPE * modulus, RADIUS, modulus)
 
@@ -77,7 +77,7 @@ def _mesh(edges: int, growth: float) -> BlockMesh:
 
 
 def solved(degree: int, hats: int, task: BlockTask) -> BlockAnswer:
-    """By this project's elements of a degree, with so many hats to an edge."""
+    """Solve by this project's elements of a degree, with so many hats to an edge."""
     solution, unknowns = _contact(task, degree, hats, Constraints(approach=task.approach))
     return BlockAnswer(float(solution.pressure.max()), unknowns)
 

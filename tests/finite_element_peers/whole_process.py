@@ -44,7 +44,7 @@ Times = tuple[float, float]  # wall, processor [s]
 
 
 def solve(code: str, file: str | Path) -> None:
-    """What a process is timed at: print unknowns and peak pressure, but of MESH."""
+    """Print unknowns and peak pressure, but of MESH: a process is timed at this."""
     block = dict(np.load(file))
     start, stop, size, growth = block["spec"]
     spec = BlockSpec(benchmark.BLOCK, benchmark.BLOCK, np.array([[start, stop]]), size, growth)
@@ -130,8 +130,8 @@ Curves = dict[tuple[str, float], list[tuple[float, float, float]]]
 
 
 def verdicts(curves: Curves, peers: list[str]) -> list[Demand]:
-    """By code with its configuration, and growth: error, seconds, seconds with the mesh, coarse to
-    fine."""
+    """Demands on curves by code with its configuration, and growth: error, seconds, seconds with
+    the mesh, coarse to fine."""
     least: dict[str, list[float]] = {}
     for (code, _), curve in curves.items():
         owner = code.partition(",")[0]

@@ -33,7 +33,7 @@ QUANTITIES = {
 
 
 def scene_paths() -> dict[str, Path]:
-    """By name."""
+    """Paths of the scenes by name."""
     return {path.stem: path for path in sorted(HERE.glob("scenes/*.toml"))}
 
 
@@ -92,7 +92,7 @@ def kept(by_level: list[ContactFigures], levels: Sequence[float]) -> dict:
 
 
 def read_values() -> dict[str, dict]:
-    """By scene, as `kept` made them."""
+    """Values by scene, as `kept` made them."""
     return json.loads(VALUES.read_text())
 
 

@@ -46,7 +46,7 @@ class Held(NamedTuple):
 
     @property
     def ratio(self) -> float:
-        """Of the difference to both uncertainties: within where it is at most 1."""
+        """Ratio of the difference to both uncertainties: within where it is at most 1."""
         return abs(self.stated - self.computed) / math.hypot(self.uncertainty, self.numerical)
 
 
@@ -65,7 +65,7 @@ def held(name: str, stated: Figures, independent: dict) -> list[Held]:
 
 
 def demands(rows: list[Held]) -> list[Demand]:
-    """Of the figures of all scenes."""
+    """Demands on the figures of all scenes."""
     within, worst = sum(row.ratio <= 1.0 for row in rows), max(row.ratio for row in rows)
     return [
         Demand(within >= COVERAGE * len(rows), f"{within} of {len(rows)} figures are within"),

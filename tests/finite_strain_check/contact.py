@@ -245,7 +245,7 @@ class SurfacePair:
         return residual, matrix
 
     def solved(self, state: State, log: Callable[[str], None] = lambda text: None) -> State:
-        """In equilibrium, from a state that is near enough. Raises NotSettledError."""
+        """Equilibrium from a state that is near enough. Raises NotSettledError."""
         pressure = np.where(state.active | state.capped, state.pressure, 0.0)
         state = replace(state, moved=[u.copy() for u in state.moved], pressure=pressure)
         for step in range(STEPS):
@@ -319,7 +319,7 @@ def _summed(rows, columns, values, shape) -> csr_matrix:
 
 
 def _solution(matrix: csr_matrix, right: np.ndarray) -> np.ndarray:
-    """By MUMPS, whose own choice of an ordering takes as long as the rest."""
+    """Solve by MUMPS, whose own choice of an ordering takes as long as the rest."""
     from petsc4py import PETSc
 
     PETSc.Options()[f"{PREFIX}mat_mumps_icntl_7"] = QAMD  # only options reach it in all releases

@@ -44,9 +44,9 @@ class ContactFigures(NamedTuple):
 
 
 def figures(pair: SurfacePair, state: State) -> ContactFigures:
-    """Of an equilibrium. Stresses are nodal means (`Solid.cauchy`); ends of patches are those
-    of an ellipse with the pressure some nodes inside and the integral from there on, so that the
-    last nodes, which oscillate, count by their mean."""
+    """Figures of an equilibrium. Stresses are nodal means (`Solid.cauchy`); ends of patches are
+    those of an ellipse with the pressure some nodes inside and the integral from there on, so that
+    the last nodes, which oscillate, count by their mean."""
     rough, small = pair.rough, pair.gap is not None
     mesh, u, edges = rough.mesh, state.moved[0], pair.edges
     corners = np.array([*edges[:, 0], edges[-1, 2]])

@@ -57,7 +57,7 @@ class Solid:
 
     @cached_property
     def gradients(self) -> tuple[np.ndarray, np.ndarray]:
-        """Of shape functions (m, 3, 6, 2) at the integration points, and their weights (m, 3)."""
+        """Gradients of shape functions (m, 3, 6, 2) at integration points, and weights (m, 3)."""
         local = np.array([quadratic_gradients(*point) for point in POINTS])
         jacobian = np.einsum("eai,gaj->egij", self.places[self.mesh.elements], local)
         det = np.linalg.det(jacobian)
@@ -122,7 +122,7 @@ class Solid:
 
     @property
     def count(self) -> int:
-        """Of unknowns."""
+        """Count of unknowns."""
         return 2 * int(np.count_nonzero(~self.held))
 
     @cached_property

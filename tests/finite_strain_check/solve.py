@@ -65,7 +65,7 @@ class Task:
 
     @property
     def half_width(self) -> float:
-        """Of the smooth contact."""
+        """Half-width of the smooth contact."""
         return float(np.sqrt(4.0 * self.load * self.radius / (np.pi * self.modulus)))
 
     @property
@@ -220,7 +220,7 @@ Meshes = tuple[Triangles, Triangles | None]
 
 
 def meshes(task: Task, wanted: ElementSizes, coarse: Meshes | None = None) -> Meshes:
-    """Of both bodies, bisected from coarser ones."""
+    """Meshes of both bodies, bisected from coarser ones."""
     if coarse is None:
         side = wanted.fine * 2.0 ** np.ceil(np.log2(BLOCK * task.half_width / wanted.fine))
         block = strip(side, 2, 1)

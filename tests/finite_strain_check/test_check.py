@@ -225,7 +225,7 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
 
 
 def test_every_scene_is_of_elastic_bodies():
-    """As the independent elements are: a body that may flow has no error for elastic ones."""
+    """The independent elements are elastic: a body that may flow has no error for elastic ones."""
     scenes = [scene_of(path) for path in cases.scene_paths().values()]
     assert len(scenes) == 12 and all(scene.finite_element.plastic is False for scene in scenes)
 

@@ -131,7 +131,7 @@ def _most_steps(code: LineCode, case: LineCase, limit: float) -> int:
 
 
 def _loosest(code: LineCode, case: LineCase, most: int, limit: float) -> LineResult:
-    """With the loosest tolerance that meets the yardstick, or the last one where none does."""
+    """Result at the loosest tolerance that meets the yardstick, or the last one where none does."""
     before = 0.0
     for tolerance in code.tolerances:
         answer, seconds = _timed(code, case, tolerance, most)

@@ -47,7 +47,7 @@ class ContactResiduals:
 
 
 def measure(case: LineCase, pressure: np.ndarray, element: str) -> ContactResiduals:
-    """Of pressures (n,) [Pa] by a code with `element` "hat", "strip" or "point"."""
+    """Residuals of pressures (n,) [Pa] by a code with `element` "hat", "strip" or "point"."""
     if not np.all(np.isfinite(pressure)) or np.max(pressure) <= 0.0:
         return ContactResiduals(*[np.inf] * 5)
     initial = {"hat": case.hat_averages, "strip": case.gaps, "point": -case.heights}[element]
@@ -79,7 +79,7 @@ def displacements(pressure: np.ndarray, element: str, periodic: bool) -> np.ndar
 
 @lru_cache(maxsize=6)
 def operator_of(count: int, element: str, periodic: bool) -> ModelOperator:
-    """Of a line of unit length, E* = 1."""
+    """Operator of a line of unit length, E* = 1."""
     if not periodic:
         return HalfPlane(count, 1.0 / count, 1.0, element=element)
     kind = PeriodicHalfPlane if element == "hat" else PeriodicStrips

@@ -36,7 +36,7 @@ def signed_areas() -> Callable[[BlockMesh], np.ndarray]:
 
 @pytest.fixture(scope="session")
 def determinants() -> Callable[[BlockMesh, np.ndarray], np.ndarray]:
-    """Of the quadratic map (m, q), from its shape functions' derivatives, at points (q, 2)."""
+    """Determinants of the quadratic map (m, q) at points (q, 2), from its shapes' derivatives."""
 
     def of(mesh: BlockMesh, at: np.ndarray) -> np.ndarray:
         r, s = at.T

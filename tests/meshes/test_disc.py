@@ -162,7 +162,7 @@ def flat_block(half_width: float, depth: float):
 
 @pytest.fixture(scope="module")
 def discs():
-    """By name, the flat mesh and the disc's."""
+    """Flat mesh and disc's, by name."""
     sizes = {"half": half_disc_size(RADIUS), "opposite": opposite_size(RADIUS)}
     blocks = {name: flat_block(size, size) for name, size in sizes.items()}
     made = {name: (block, disc(block, RADIUS)) for name, block in blocks.items()}

@@ -1,4 +1,4 @@
-"""What happens around the gmsh process: crashes, time-outs, orphans."""
+"""Failures around the gmsh process: crashes, time-outs, orphans."""
 
 import os
 import signal

@@ -33,7 +33,7 @@ def scenes(folder: Path, numbers: Iterable[int], seed: int) -> Iterator[tuple[in
 
 
 def profiles(folder: Path, numbers: Iterable[int], seed: int) -> Iterator[tuple[int, Path]]:
-    """The same with mutated profiles under good scenes."""
+    """Number and path of each good scene with a mutated profile."""
     for number in numbers:
         draw = random.Random(f"profile {seed} {number}")
         name, content, heights_alone = traces(draw)

@@ -160,7 +160,7 @@ def traces(draw: random.Random) -> tuple[str, bytes, bool]:
 
 
 def _arrays(draw: random.Random, x: np.ndarray, z: np.ndarray) -> tuple[str, bytes, bool]:
-    """The same in a file of numpy."""
+    """Trace in a file of numpy."""
     content, ending = io.BytesIO(), draw.choice(("npy", "npz"))
     if ending == "npy":
         np.save(content, draw.choice((z, np.stack((x, z), axis=1))))

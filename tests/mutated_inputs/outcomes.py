@@ -1,4 +1,4 @@
-"""What becomes of an input, and what of that is a defect."""
+"""Outcomes of an input, and which of them are defects."""
 
 import io
 import re
@@ -26,7 +26,7 @@ class Refusal(Exception):
 
 
 def resolve(path: Path) -> str:
-    """What becomes of a scene that is read, checked and resolved."""
+    """Outcome of a scene that is read, checked and resolved."""
     scene = Scene.read(path)
     surface = surface_of(scene)
     warnings_about(scene, surface)
@@ -40,7 +40,7 @@ def resolve(path: Path) -> str:
 
 
 def solve(path: Path) -> str:
-    """What becomes of a scene that is solved by the half-plane."""
+    """Outcome of a scene that is solved by the half-plane."""
     result = run(Scene.read(path), None, ("half_plane",))
     warnings_about_result(result)
     shown = Console(file=io.StringIO(), width=100)

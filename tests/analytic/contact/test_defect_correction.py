@@ -49,7 +49,7 @@ def on_base(times: float) -> DenseMatrix:
 def solved(
     operator, constraints=LOADED, start=None, model=None, gap=None, **options
 ) -> ContactSolution:
-    """With the half-plane as model, unless another, on the averaged gap."""
+    """Solution with the half-plane as model, unless another, on the averaged gap."""
     model = half_plane() if model is None else model
     gap = average_gap() if gap is None else gap
     return solve_with_model(operator, model, gap, GRID.weights, constraints, start, **options)
@@ -128,7 +128,7 @@ def test_an_approach_takes_no_more_steps_than_its_load(base):
 @pytest.mark.parametrize("base", [0.0, 1.0, 10.0, 60.0])
 @pytest.mark.parametrize("change", [1e-9, 1e-8, 1e-7])
 def test_on_a_base_little_is_not_taken_for_rounding(base, change):
-    """What the last steps still move, too many nodes being free to be solved for directly."""
+    """The last steps still move a little, too many nodes being free to be solved for directly."""
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 1e-6)
     plain = HalfPlane(grid.count, grid.pitch, MODULUS)
     model = plain.on_base(base * plain.column[0] / grid.pitch**2)
@@ -273,7 +273,7 @@ class TestSurfacesMovedByFriction:
 
 
 def test_no_pressure_under_an_approach_that_closes_the_gap_is_no_solution():
-    """In whatever unit of length."""
+    """Holds in whatever unit of length."""
     for unit in (1.0, 1e-9):
         gap, weights = np.array([0.2, 0.0, 0.2]) * unit**2, np.ones(3) * unit
         limits = Constraints(approach=0.1 * unit)

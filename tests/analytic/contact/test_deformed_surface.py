@@ -19,7 +19,7 @@ LAWS = (Law(), Law("st-venant-kirchhoff"), Law("murnaghan", (-3e11, -6e11, 5e11)
 
 
 def times(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Of polynomials in y, or of tensors of them, summed over inner indices."""
+    """Product of polynomials in y, or of tensors of them, summed over inner indices."""
     if one.ndim == 1:
         return np.pad(polymul(one, other), (0, 2 * TERMS))[:TERMS]
     pairs = [
@@ -50,7 +50,7 @@ def along_y(polynomial: np.ndarray, decay: float) -> np.ndarray:
 
 
 def gradient(ux: np.ndarray, uy: np.ndarray, k: float, decay: float) -> np.ndarray:
-    """Of a displacement e^(ikx) e^(decay y) times polynomials, y outward."""
+    """Gradient of a displacement e^(ikx) e^(decay y) times polynomials, y outward."""
     return np.array([[1j * k * u, along_y(u, decay)] for u in (ux, uy)])
 
 

@@ -1,4 +1,4 @@
-"""What hats leave out next to the ends of contact, against Hertz's sliding contact."""
+"""Stresses that hats leave out next to the ends of contact, against Hertz's sliding contact."""
 
 import numpy as np
 import pytest

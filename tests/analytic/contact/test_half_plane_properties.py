@@ -1,4 +1,4 @@
-"""What holds for every contact, whatever its profile: units, mirror, shift, order, caps.
+"""Properties of every contact, whatever its profile: units, mirror, shift, order, hardness.
 
 Where nothing but the units or the side changes, pressures agree to EXACT of their peak. Profiles
 are sums of waves that the grid resolves, drawn by hypothesis from seeds.
@@ -140,7 +140,7 @@ class TestUnits:
     @given(seed=seeds, length=st.integers(-40, 40), modulus=st.integers(-25, 25))
     @examples(10)
     def test_powers_of_two_change_no_digit(self, periodic, seed, length, modulus):
-        """Of the modulus those of four, whose roots have no more digits."""
+        """Moduli change by powers of four, whose roots have no more digits."""
         here, (metre, pascal) = contact(seed, periodic), np.exp2([length, 2 * modulus])
         load = Constraints(load=here.constraints.load * metre * pascal)
         there = Contact(periodic, metre * here.pitch, pascal, metre * here.gap, load).solved()
@@ -272,7 +272,7 @@ class TestCap:
     @given(seed=seeds)
     @examples(20)
     def test_the_load_moves_to_the_sides(self, periodic, seed):
-        """Of strips: a pressure then lowers the surface most where it acts, which hats do not."""
+        """Uses strips: a pressure then lowers the surface most where it acts, which hats do not."""
         here = replace(contact(seed, periodic, hardness=True), element="strip")
         hardness = here.constraints.hardness
         capped, free = here.solved(), here.under(hardness=np.inf).solved()

@@ -118,7 +118,7 @@ class TestCost:
 
     @pytest.mark.parametrize("periodic", [True, False])
     def test_on_a_rough_surface_they_hardly_grow(self, periodic):
-        """Of four surfaces, on grids whose contact is too large to be solved for directly."""
+        """Mean of four surfaces, on grids whose contact is too large to be solved for directly."""
 
         def mean(count: int) -> float:
             problems = [lambda n, s=seed: rough(n, periodic, s) for seed in range(4)]

@@ -24,7 +24,7 @@ def weights(hats):
 
 
 def compliance(hats):
-    """Of equal hats; or, with nodes at whole GRAINs, as sums of hats a GRAIN wide."""
+    """Compliance of equal hats; or, with nodes at whole GRAINs, as sums of hats a GRAIN wide."""
     pitch = np.diff(hats)
     if np.ptp(pitch) < 1e-9:
         return HalfPlane(len(hats) - 2, pitch[0], 1.0)

@@ -97,7 +97,7 @@ def solved(
 
 @every_case
 def test_numerical_half_plane_meets_it(case: ExactContact):
-    """Of order 1 in L2 at the edges' square root, of order 2 where there is no edge.
+    """Orders: 1 in L2 at the edges' square root, 2 where there is no edge.
 
     Errors are averaged over where the edges fall between two nodes.
     """
@@ -125,7 +125,7 @@ def test_numerical_half_plane_meets_it(case: ExactContact):
 
 
 def assert_second_order(case: ExactContact, exact, half_width: float) -> None:
-    """Of the largest errors over the peak pressure, 0.1 to 2 half-widths deep."""
+    """Check the largest errors over the peak pressure, 0.1 to 2 half-widths deep."""
     x = half_width * np.linspace(-2.0, 2.0, 41)
     z = half_width * np.array([[0.1], [0.2], [0.5], [1.0], [2.0]])
     expected = exact(x, z)

@@ -77,7 +77,7 @@ def test_the_gap_is_closed_where_it_presses_and_open_elsewhere():
 
 
 def test_a_spline_through_the_gap_converges_at_its_full_order():
-    """With order 4: four continuous derivatives, at the edges too."""
+    """The order is 4: four continuous derivatives, at the edges too."""
     fine = np.linspace(*ROUGH.ends, 5003)
     errors = []
     for count in (1001, 2001, 4001):

@@ -135,7 +135,7 @@ def solved(punch: RoundedPunch, elements: int, offset: float):
 
 @pytest.mark.parametrize("flat", [0.3, 0.6, 0.9])
 def test_solver_converges_to_the_exact_pressure(flat):
-    """Of order 2 in the peak, 1 in L2 as at any square-root edge; the edges to 0.05 of a pitch.
+    """Orders: 2 in the peak, 1 in L2 as at any square-root edge; the edges to 0.05 of a pitch.
 
     Errors averaged over where the edges fall between two nodes; levels by the corner's width.
     """

@@ -50,7 +50,7 @@ def test_transforms_find_the_maximum_of_a_band(peclet):
 
 
 def line_source(x, z, peclet):
-    """Of a hat of half-width 1, by adaptive quadrature."""
+    """Rise by a hat of half-width 1, by adaptive quadrature."""
 
     def kernel(s):
         distance = np.hypot(x - s, z)
@@ -98,7 +98,7 @@ def test_slow_motion_is_a_datum_for_rest():
 
 
 def test_heat_balance_behind_a_source():
-    """What enters is carried away: V rho c int T dz = q l far behind."""
+    """Heat that enters is carried away: V rho c int T dz = q l far behind."""
     x = np.arange(0, 1200) / 50.0
     flux = np.maximum(1.0 - np.abs(x - 22.0), 0.0)
     surface = HeatedSurface(UNIT, len(x), 0.02, -20.0)

@@ -175,7 +175,7 @@ def test_thin_layer_on_a_frictionless_base_is_a_bed_of_springs():
 
 
 def test_thin_bonded_layer_tends_to_a_bed_of_springs():
-    """The same with M = E (1-nu)/((1+nu)(1-2nu)), but for (t/a)^2."""
+    """P as on a frictionless base, with M = E (1-nu)/((1+nu)(1-2nu)), but for (t/a)^2."""
     body, nu = LayeredBody(LAYER, 1.0, "bonded"), LAYER.poissons_ratio
     modulus = LAYER.youngs_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
     lacking = [

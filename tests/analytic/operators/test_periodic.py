@@ -62,7 +62,7 @@ def waves():
     ids=["peak", "half-width", "mean gap", "valley gap"],
 )
 def test_partial_contact_of_a_wave_converges_to_westergaard(waves, quantity, ceiling):
-    """Of second order; where the edge falls between two nodes scatters single steps."""
+    """The order is 2; where the edge falls between two nodes scatters single steps."""
     worst = waves[:, :, quantity].max(axis=0)
     order = -np.polyfit(np.log(COUNTS), np.log(worst), 1)[0]
     assert 1.75 < order < 2.35

@@ -40,7 +40,7 @@ def tangential(count: int, modulus: float, dundurs: float) -> np.ndarray:
 
 @pytest.mark.parametrize("offset", [0.0, 0.25, 1.0, 1.5, 1.9, 2.0, 7.3])
 def test_hat_sign_is_the_mean_sign_of_the_distance(offset):
-    """By quadrature of the sign of one hat over the other, interval by interval."""
+    """Quadrature of the sign of one hat over the other, interval by interval."""
     points, weights = leggauss(12)
 
     def over_one_hat(x):  # int hat(s) sign(x - s) ds, by its distribution function
@@ -168,7 +168,7 @@ def test_contact_of_the_whole_matrix_is_that_of_the_body(friction_dundurs, const
 
 
 def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
-    """As those of the half-plane with hats twice as wide; of an even count the last is short."""
+    """Equal to those of the half-plane, hats twice as wide; of an even count the last is short."""
     for count in (41, 40):
         fine = coupled_half_planes(count, 1e-6, MODULUS, 0.4, 1e-3)
         coarse = whole(fine).coarsened()
@@ -180,7 +180,7 @@ def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
 
 
 def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
-    """As over a mesh that is coarse there: displacements of every third hat, and between them."""
+    """Displacements of every third hat, and between them: as over a mesh that is coarse there."""
     far = np.abs(GRID.x) > 0.42e-3
     places = np.flatnonzero(~far | (np.arange(GRID.count) % 3 == 0))
     spread = np.array([np.interp(GRID.x, GRID.x[places], row) for row in np.eye(len(places))]).T

@@ -51,7 +51,7 @@ def worst(field, friction: float, nodes, pressure, element: str) -> float:
 )
 @pytest.mark.parametrize("element", ["hat", "strip"])
 def test_field_equals_direct_sum(x_range, subdivisions, element):
-    """Of strips not where one ends on the surface."""
+    """Strips are left out where one ends on the surface."""
     levels = LEVELS[1:] if element == "strip" and subdivisions % 2 == 0 else LEVELS
     field = friction_field(NODES, PRESSURE, x_range, levels, subdivisions, element)
     for friction in (0.0, 0.35):

@@ -1,4 +1,4 @@
-"""What holds for every field of stress: superposition, linearity, mirror, shift, units, balance."""
+"""Properties of every field of stress: superposition, linearity, mirror, shift, units, balance."""
 
 import numpy as np
 import pytest

@@ -429,7 +429,7 @@ def test_a_power_spectrum_holds_the_mean_square_height():
 
 
 def test_a_bearing_curve_is_that_of_a_wave():
-    """Of a sine the share c is as high as cos(pi c)."""
+    """The share c of a sine is as high as cos(pi c)."""
     x = np.linspace(0.0, 1.0, 2001)
     share, height = bearing_curve(Profile(x, np.sin(2.0 * np.pi * 20.0 * x)))
     np.testing.assert_allclose(height, np.cos(np.pi * share), atol=3e-3)

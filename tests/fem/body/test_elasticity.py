@@ -269,7 +269,7 @@ def surface(spec, modulus=None):
 
 @pytest.fixture(scope="module")
 def plain():
-    """Of the body without a line."""
+    """Surface of the body without a line."""
     return surface(BLOCK)
 
 
@@ -435,7 +435,7 @@ def residual_ratio(body: ElasticBody) -> float:
 
 
 def compression_errors(body: ElasticBody) -> tuple[float, float, float]:
-    """Of the displacement, relative; forces inside as a test ratio; of the resultant, relative."""
+    """Errors of the displacement, relative; forces inside as a test ratio; resultant, relative."""
     material, matrix = body.material, csr_matrix(body.stiffness())
     moved = np.zeros(body.nodes.shape)
     moved[:, 1] = body.mesh.spec.depth - body.nodes[:, 1]

@@ -27,7 +27,7 @@ def surface(mesh, degree):
 
 
 def bent(mesh):
-    """The same block, its top stretched along x: edges on which x is quadratic."""
+    """Block whose top is stretched along x: edges on which x is quadratic."""
     x, z = mesh.points.T
     return replace(
         mesh, shift=np.column_stack([0.1 * np.sin(1.7 * x) * (1 - z), 0.1 * x * (1 - z)])

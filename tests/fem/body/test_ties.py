@@ -28,7 +28,7 @@ def compliance(edges_a_hat: int) -> FiniteElementCompliance:
 
 @pytest.mark.parametrize("wave", [1, 4])
 def test_waves_sink_as_on_a_half_plane(wave):
-    """Of second order at least in the elements, which are too stiff, never too soft."""
+    """The order is at least 2 in the elements, which are too stiff, never too soft."""
     exact = PeriodicHalfPlane(COUNT, GRID.pitch, STEEL.plane_strain_modulus)
     pressure = np.cos(2.0 * np.pi * wave * GRID.x / PERIOD + 0.3)
     work = pressure @ exact.apply(pressure)

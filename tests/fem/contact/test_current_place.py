@@ -99,7 +99,7 @@ def test_derivatives(wavy, friction):
 
 
 def test_forces_are_along_the_current_normal_and_tangent(wavy):
-    """In sum: the load is the pressure's, and friction pulls towards +x along the tangent."""
+    """Sums: the load is the pressure's, and friction pulls towards +x along the tangent."""
     friction, at = 0.3, moved(wavy, 0.1, 1)
     force = CurrentContact(wavy, HATS, circle(RADIUS)).at(at, PRESSURE).force @ PRESSURE
     pulled = CurrentContact(wavy, HATS, circle(RADIUS), friction).at(at, PRESSURE).force @ PRESSURE
@@ -167,8 +167,8 @@ class TestTerms:
 
     @pytest.mark.parametrize("friction", [0.0, 0.3])
     def test_forces_and_moments_are_in_balance(self, friction):
-        """What pushes the rough body pushes the roller back, at the same places: the moment is
-        that of the gap between them. The roller's frame is mirrored."""
+        """Forces on the rough body push the roller back, at the same points: the moment is that of
+        the gap between them. The roller's frame is mirrored."""
         bodies = blocks()
         at = some(bodies, 0.05)
         place = np.vstack([body.nodes for body in bodies]) + at
@@ -334,7 +334,7 @@ class TestPressed:
 
     @pytest.mark.parametrize("on_rough", [False, True])
     def test_the_load_is_the_energys_derivative_by_the_approach(self, on_rough):
-        """Of both bodies' strain energy, by a quadrature of its own."""
+        """Energy: both bodies' strain energy, by a quadrature of its own."""
         case = pressed(0.1, on_rough=on_rough)
         against = FiniteElementCompliance(case.roller, case.hats)
         energies, h = [], 1e-3 * case.state.approach

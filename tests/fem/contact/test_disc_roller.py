@@ -34,7 +34,7 @@ REFINED = np.array([[-1.2, 1.2]])  # in half-widths
 
 class TestSector:
     def test_compliance_tends_to_the_flat_block_s_with_the_curvature(self):
-        """The same block, 2 wide and 1 deep, bent less and less: a difference of order 1 in 1/R."""
+        """A block, 2 wide and 1 deep, is bent less and less: a difference of order 1 in 1/R."""
         flat = structured_block(np.linspace(-1, 1, 41), np.linspace(0, 1, 21), seed=4)
         hats = hat_nodes(-0.5, 0.05, 21)
 
@@ -129,7 +129,7 @@ class TestHertz:
 
     @pytest.mark.parametrize(("on_half_plane", "amount"), [(False, 1.2), (True, 0.63)])
     def test_what_the_disc_does_otherwise_is_of_second_order(self, on_half_plane, amount):
-        """Of two bodies the half-plane's half of the compliance has no part in it."""
+        """The half-plane's half of the compliance of two bodies has no part in it."""
         ratios = np.array([0.1, 0.05, 0.025])
         cases = [pressed(ratio, on_half_plane) for ratio in ratios]
         peak = np.array([case.peak for case in cases])

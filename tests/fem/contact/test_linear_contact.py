@@ -253,7 +253,7 @@ def compliance():
 
 
 def system(compliance, hats, soft=0.0, friction=0.0, loaded=True):
-    """In which the stiffness of some nodes is less by a part."""
+    """System in which the stiffness of some nodes is less by a part."""
     body, count = compliance.body, compliance.body.unknowns
     part = np.where(np.arange(count) % 7 == 0, 1.0 - soft, 1.0)
     tangent = body.stiffness().multiply(part).multiply(part[:, None]).tocsr()

@@ -60,7 +60,7 @@ def block_of(extent: float = 1000.0, mirrored: bool = False):
 
 @cache
 def surface(material: Material, extent: float = 1000.0, mirrored: bool = False):
-    """Of so large a block that it stands for a half-plane."""
+    """Surface of so large a block that it stands for a half-plane."""
     body = elastic_body(block_of(extent, mirrored), material, Support(sides="fixed"))
     return FiniteElementCompliance(body, HATS)
 

@@ -184,7 +184,7 @@ def test_first_flow_is_below_the_coating():
 
 
 def test_work_is_elastic_and_plastic(mesh_of):
-    """Of the load on the approach, over increments of a frictionless contact."""
+    """Work of the load on the approach, over increments of a frictionless contact."""
     rise, loads = 2.0, np.linspace(0.0, 1.0, 17)[1:]
     scene = coated(mesh_of, 4.0, 0.3, HARD, hardening=rise)
     plastic, history = scene.press(loads, travel=np.inf)

@@ -72,7 +72,7 @@ def test_pressures_are_those_of_dense_equations_from_any_start(friction, gap, lo
 
 
 def test_many_rough_hats_settle_from_all_in_contact():
-    """As where a coarse contact or the load before tells nothing of a smaller one."""
+    """They start so where a coarse contact or the load before tells nothing of a smaller one."""
     count = 2000
     near = half_plane_like(0.0, count)
     walk = np.random.default_rng(1).normal(size=count).cumsum()

@@ -273,7 +273,7 @@ def test_stress_and_tangent_are_derivatives_of_the_strain():
     base = 0.5 * (FLOWING + FLOWING.transpose(0, 2, 1))  # a gradient for Green's strain
 
     def at(green):
-        """Of the stretch U = sqrt(I + 2 E), E (8, 3) Green's."""
+        """Strain of the stretch U = sqrt(I + 2 E), E (8, 3) Green's."""
         tensor = np.eye(2) + 2.0 * green[:, [[0, 2], [2, 1]]] * [[1.0, 0.5], [0.5, 1.0]]
         size, axes = np.linalg.eigh(tensor)
         return LogStrain((axes * np.sqrt(size)[:, None]) @ axes.transpose(0, 2, 1) - np.eye(2))

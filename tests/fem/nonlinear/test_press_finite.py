@@ -108,8 +108,8 @@ def test_light_loads_are_those_of_small_strains(body):
 
 
 def test_work_is_elastic_and_plastic_and_friction(made):
-    """Of pressures and tractions, and of the support, which moves the body back along x; of a wavy
-    body at finite strains, pressed and released. What steps miss is of second order."""
+    """Work of pressures and tractions, and of the support, which moves the body back along x; of a
+    wavy body at finite strains, pressed and released. Steps miss work of second order."""
     left, body = [], made(lambda x: 0.004 * np.cos(2.0 * np.pi * x))
     for steps in (2, 4):
         contact, load, peak = touching(body, 0.1, 0.2)
@@ -129,7 +129,7 @@ def test_work_is_elastic_and_plastic_and_friction(made):
 
 
 def punched(edges):
-    """Of a metal that is nearly rigid."""
+    """Pressures under a punch in a metal that is nearly rigid."""
     elastic, approaches = Material(2e6, NU), [1.5e-5, 3e-5, 5e-5]
 
     def contact_of(body, hats):
@@ -285,8 +285,8 @@ def test_a_cylinder_is_followed_to_four_fifths_of_its_radius():
 
 
 def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
-    """What rises beside the roller is left out. Loads alone lead to a contact of 0.3 of the radius:
-    between two hats that touch they hardly rise."""
+    """Metal that rises beside the roller is left out. Loads alone lead to a contact of 0.3 of the
+    radius: between two hats that touch they hardly rise."""
     body, hats = soft(8.0, 0.8, 1.2)
     start = 20.0 * np.sqrt(np.maximum(0.15**2 - hats[1:-1] ** 2, 0.0))
     contact = FiniteContact(body, hats, circle(1.0), start)

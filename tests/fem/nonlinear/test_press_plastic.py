@@ -244,8 +244,8 @@ def test_mean_over_neighbours_keeps_the_load_and_ends_a_sawtooth():
 
 
 def test_no_peak_stays_where_an_edge_stood(small_block):
-    """In a contact that flow has spread to twice Hertz's pressures fall from the middle to the
-    edges, and shorter increments change the peak little, longer ones much."""
+    """Pressures fall from the middle to the edges where flow has spread the contact to twice
+    Hertz's, and shorter increments change the peak little, longer ones much."""
     scene = MetalScene(small_block, 5.0, 6, reach=2.0, hardening=10.0)
 
     def pressed(travel):

@@ -61,7 +61,7 @@ def run(cache, poissons_ratio=0.3, bodies=1):
 
 
 def test_a_cold_compile_is_silent_and_serves_later_processes(tmp_path):
-    """Of bodies of other materials, too."""
+    """Later processes may have bodies of other materials."""
     assert run(tmp_path, bodies=2) == ""
     compiled = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.so")}
     assert compiled

@@ -49,7 +49,7 @@ def refusal(path, kind=ProfileError, **options) -> str:
 
 
 def test_empty_columns_at_the_end_are_none(tmp_path):
-    """As a Dektak exports: two commas end every row, one the names."""
+    """A Dektak exports these: two commas end every row, one the names."""
     holds(text(tmp_path, "Lateral um,Raw Micrometer,\n", X, RAW, end=",,\n"), RAW)
 
 
