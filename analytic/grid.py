@@ -64,7 +64,7 @@ class HatGrid:
 
     @property
     def unfolded_x(self) -> np.ndarray:
-        """Places [m] of `unfolded`: the grid's own in the middle."""
+        """Positions [m] of `unfolded`: the grid's own in the middle."""
         beside = self.count if self.periodic else 0
         return np.arange(self.first - beside, self.last + beside + 1) * self.pitch
 

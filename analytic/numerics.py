@@ -25,7 +25,7 @@ def points_below(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
 
 
 def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First places of the runs of marks (n,), and the places that follow each run."""
+    """First indices of the runs of marks (n,), and the indices that follow each run."""
     padded = np.concatenate(([False], marks, [False]))
     changes = np.flatnonzero(padded[1:] != padded[:-1])
     return changes[0::2], changes[1::2]
@@ -33,7 +33,7 @@ def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:
     """Call `work` on every piece, on OMP_NUM_THREADS threads, or one a core without such a number.
-    Pieces write to places of their own: threads change no result."""
+    Pieces write to slices of their own: threads change no result."""
     pieces = list(pieces)
     asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
     threads = max(1, int(asked)) if asked.isdecimal() else os.cpu_count() or 1

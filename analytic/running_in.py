@@ -1,8 +1,8 @@
-"""Running-in: a roller pressed on at place after place until no asperity flows any more.
+"""Running-in: a roller pressed on at position after position until no asperity flows any more.
 
 At each position the contact is solved with the pressure capped at the hardness. Where the cap
 holds, the surfaces would still overlap; plastic flow takes the overlap off the profile, so that
-the same load at the same place is carried elastically from then on. Sweeps over all positions
+the same load at the same position is carried elastically from then on. Sweeps over all positions
 follow each other until one moves next to nothing: the profile has settled. What flows is lost:
 there is no pile-up beside a flattened asperity, no hardening, and no residual stress.
 
@@ -205,7 +205,7 @@ class _Surface:
         )
 
     def _contact(self, place: float) -> tuple[HatGrid, ContactSolution]:
-        """The contact at one place, on as many hats as it needs."""
+        """The contact at one position, on as many hats as it needs."""
         whole = self.whole
         while True:
             first = round(place / whole.pitch) - self.operator.count // 2
@@ -227,7 +227,7 @@ class _Surface:
             self._span(2.0 * self.reach)
 
     def _gap(self, place: float, grid: HatGrid) -> np.ndarray:
-        """Weighted gap (n,) [m^2] under the roller at a place, over the profile as it is now."""
+        """Weighted gap (n,) [m^2] under the roller at a position, over the profile as it is now."""
         near = self._part(grid, SPLINE_REACH)
         height = Profile(self.x[near], (self.height - self.lowering)[near]).spline()
         gap = roller_gap(self.radius, lambda from_centre: height(from_centre + place))

@@ -1,6 +1,6 @@
 """The mesh of a disc that is held away from the contact, from that of a flat block.
 
-On the rim the x of the surface stays up to KEPT radii. From there on the place in the block counts
+On the rim the x of the surface stays up to KEPT radii. From there on the point in the block counts
 on at the rate that it has there, as far as the rim goes: t(x), with t' continuous.
 
 Half or nearly all of a disc of radius R, its contact at 0 and z into it. With p = x + i z in the
@@ -8,8 +8,8 @@ disc, q in the half-plane Im q > 0:
 
     p = q / (1 - i q / 2R),     q = 2R tan(angle / 2) on the rim, which is t(x)
 
-keeps angles. Half circles |q| = Q become arcs around the place opposite the contact: at Q = 2R the
-diameter, beyond it circles whose farthest points are 4R^2 / Q away from that place, nearly. Squares
+keeps angles. Half circles |q| = Q become arcs around the point opposite the contact: at Q = 2R the
+diameter, beyond it circles whose farthest points are 4R^2 / Q away from that point, nearly. Squares
 about the block's origin go to these half circles.
 
 A ring about a hub of radius h: lines of equal depth go to circles, r = R exp(-z/R), and upright
@@ -25,7 +25,7 @@ from meshes.quality import LEAST_ANGLE_ROUGH_DEGREES, check_quality
 from meshes.real_shape import sagitta
 
 KEPT = 0.8  # of the radius: half of the surface whose x stays
-HELD_OPPOSITE = 0.3  # of the radius: what is held about the place opposite the contact, nearly
+HELD_OPPOSITE = 0.3  # of the radius: what is held about the point opposite the contact, nearly
 
 
 def half_disc_size(radius: float) -> float:
@@ -60,7 +60,7 @@ def disc(mesh: BlockMesh, radius: float) -> BlockMesh:
 
 def ring(mesh: BlockMesh, radius: float) -> BlockMesh:
     """Mesh of a ring of outer `radius` [m], from that of a flat block of `ring_size`: its base
-    becomes the hub's circle, both sides the line from there to the place opposite the contact.
+    becomes the hub's circle, both sides the line from there to the point opposite the contact.
     MeshError if the block is not flat, or if the elements are not fit to solve on."""
     if mesh.shift.any():
         raise MeshError("only a flat block can become a ring")

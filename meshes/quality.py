@@ -70,7 +70,7 @@ def quality_of(mesh: BlockMesh) -> dict:
 
 
 def check_quality(mesh: BlockMesh, *, least_angle_degrees: float = LEAST_ANGLE_DEGREES) -> None:
-    """Raises MeshError, with the place, if the mesh is not fit to solve on."""
+    """Raise MeshError, with x and z, if the mesh is not fit to solve on."""
     figures = quality_of(mesh)
     bounds = [
         ("least_jacobian", LEAST_JACOBIAN, 1.0),

@@ -43,7 +43,7 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
     of the top side are parabolas through the profile, the two other edges of their triangles curve
     a little with them, the rest stay straight. No point moves along x; base and sides stay.
 
-    Raises MeshError if height is not finite, if an element is inverted (with the place and the
+    Raises MeshError if height is not finite, if an element is inverted (with x and z and the
     slope there), or if the elements are not fit to solve on."""
     flat, triangles = mesh.points, mesh.triangles
     top = np.flatnonzero(flat[:, 1] == 0.0)

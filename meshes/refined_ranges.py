@@ -63,7 +63,7 @@ def refined_ranges(
 
 
 def unrefined_contact(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:
-    """Ranges (k, 2) [m] that are in contact but not refined. active (n,) [m] are the places in
+    """Ranges (k, 2) [m] that are in contact but not refined. active (n,) [m] are the nodes in
     contact, each of which loads the surface up to reach [m] on both sides (the pitch of hat
     pressures). intervals (m, 2) [m] are the refined ranges."""
     intervals = merge(intervals)

@@ -1,9 +1,9 @@
 """Blocks graded to the thermal layers of a source that the material moves past.
 
 Heat reaches kappa/V against the motion and the depth sqrt(kappa s/V) at a distance s behind each
-place where the flux begins or ends. The edges of the surface's elements follow both:
+point where the flux begins or ends. The edges of the surface's elements follow both:
 
-    e(x) = min(h + g d,  max(L, sqrt(L s)) / n  behind such a place,  L/n + g s  ahead of it)
+    e(x) = min(h + g d,  max(L, sqrt(L s)) / n  behind such a point,  L/n + g s  ahead of it)
 
 With n = 1 or more quadratic elements need no upwinding (`fem.heat.conduction`). A finer level has
 h/2, 2 n and g/sqrt(2): temperatures converge with order 2, as fluxes jump at the ends of a band.
@@ -72,7 +72,7 @@ def thermal_spec(
     stops = np.unique([-half_width, *inside, half_width])
     pieces = [graded_line(a, b, law)[:-1] for a, b in pairwise(stops)]
     vertices = np.concatenate([*pieces, stops[-1:]])
-    # beyond the last place that the layers refine the block's own law goes on alike
+    # beyond the last point that the layers refine the block's own law goes on alike
     alone = layer_size(patches, size, growth, np.inf, layers)(vertices)
     beside = np.maximum(inside[0] - vertices, vertices - inside[-1])
     refined = law(vertices) < alone * (1.0 - SLACK)

@@ -45,7 +45,7 @@ class ActiveSet:
         return ~(self.lower | self.upper)
 
     def edges(self) -> int:
-        """Places where the free nodes begin or end."""
+        """Count of boundaries between free nodes and others."""
         return int(np.count_nonzero(self.free[1:] != self.free[:-1]))
 
     def exchanged(self, violated: Violations) -> "ActiveSet":

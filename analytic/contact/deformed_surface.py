@@ -1,6 +1,6 @@
 """Contact of half-planes on their deformed surfaces, to second order in the gradient of u.
 
-p(x) is Cauchy's pressure, a force per current length at current places x along the current normal.
+p(x) is Cauchy's pressure, a force per current length at a current x, along the current normal.
 In contact both surfaces are one curve s(x). A body's surface was at X = x - u_x before, at its
 height h there, so that
 
@@ -8,7 +8,7 @@ height h there, so that
 
 which is exact: no slope of h has to be small, for the pressure flattens it. Cauchy's stress of a
 law of third order (`analytic.material.third_order`) is expanded to second order in grad u at
-current places. u1 balances p on a flat surface; u2 balances what is quadratic in grad u1. Of waves
+current x. u1 balances p on a flat surface; u2 balances what is quadratic in grad u1. Of waves
 p(k) of the pressure the outward u2 of the surface is, for k > 0,
 
     u2(k) = -A / (2 k) (p+ p+)(k) - B (P+ p-)(k)        p+, p- waves k > 0 and k < 0 of p

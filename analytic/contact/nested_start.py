@@ -69,7 +69,7 @@ def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:
     between = 0.5 * (padded[:-1] + padded[1:])
     between[1:][_ends_short(padded)] = 0.0
     between[:-1][_ends_short(padded[::-1])[::-1]] = 0.0
-    if periodic:  # the first and the last are the same place
+    if periodic:  # the first and the last are the same point
         between[0] = min(between[0], between[-1])
     fine = np.empty(count)
     fine[1::2] = pressure[: len(fine[1::2])]

@@ -100,7 +100,7 @@ class SearchDirections:
     """The preconditioner on some nodes (m,), projected on w'p = const where `weights` are given.
 
     operator  of a stretch of the line that holds the nodes
-    stretch   its place on the line: all of it where `cropped` is False
+    stretch   its slice of the line: all of it where `cropped` is False
     lift      (m,) pressures that carry a unit load"""
 
     def __init__(

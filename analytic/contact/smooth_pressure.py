@@ -29,7 +29,7 @@ Interval = tuple[float, float]
 def contact_ends(
     hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """First and last touching node (k, 2) of each patch, places in p, and the ends of contact
+    """First and last touching node (k, 2) of each patch, indices in p, and the ends of contact
     (k, 2) [m] beyond them.
     Gaps of c d^(3/2) (1 + k d) averaged over the hats agree with those of three open nodes; half
     way to the first open node where there is no such end, or where too few nodes are open."""
@@ -66,7 +66,7 @@ def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
 
 def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Ends (k,) by the gaps (k, 3) of open nodes, at places (k, 5) with those beside; else 1/2."""
+    """Ends (k,) by the gaps (k, 3) of open nodes, at x (k, 5) with those beside; else 1/2."""
     step = np.diff(local)
     weighted = gap * (step[:, :-1] + step[:, 1:])
 

@@ -46,7 +46,7 @@ class ExactContact:
     # Periodic cases count one patch.
     quantities: Mapping[str, float]
     friction: float = 0.0  # of the traction; it also shifts the pressure where `coupled`
-    knots: tuple[float, ...] = ()  # places [m] where g0 is not smooth
+    knots: tuple[float, ...] = ()  # x [m] where g0 is not smooth
     period: float | None = None  # [m] of pressure and gap, or None
     hardness: float = np.inf  # cap on the pressure [Pa]
 

@@ -48,8 +48,8 @@ from analytic.stress_state import Extremum, StressState
 
 SMOOTHNESS = 6  # continuous derivatives of the initial gap
 _HIGHEST = 40.0  # w (2 - z/t) beyond which nothing is added
-_TOGETHER = 256  # places that waves are summed at together
-# A search starts at these places and depths [half-widths] of each patch, and closes in on the best.
+_TOGETHER = 256  # points that waves are summed at together
+# A search starts at these x and depths [half-widths] of each patch, and closes in on the best.
 _PLACES = 1.5 * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 41))
 _DEPTHS = np.array([0.0, *np.geomspace(0.01, 3.0, 24)])
 _STARTS, _ZOOMS, _ZOOM = 3, 28, 0.5
@@ -280,7 +280,7 @@ class ManufacturedContact:
         return w / thickness, load * weights / np.pi, weights / np.pi
 
     def _check_reach(self, x: np.ndarray) -> None:
-        """Raise ValueError for places that the waves are not dense enough for."""
+        """Raise ValueError for x that the waves are not dense enough for."""
         extent = np.ptp(self.ends)
         if np.any(x < self.ends[0] - extent) or np.any(x > self.ends[1] + extent):
             raise ValueError("x must lie within the contact's extent from its ends")

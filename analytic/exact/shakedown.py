@@ -1,9 +1,9 @@
 """Elastic shakedown of a line contact that rolls and slides over a half-plane again and again.
 
 After the first passes residual stresses may be left under which nothing flows any more. In plane
-strain, the same for every place along the surface, they are a stress r(z) along the surface and one
+strain, the same for every x along the surface, they are a stress r(z) along the surface and one
 across the plane. By Melan's theorem the body shakes down where some r(z) keeps, at every depth and
-all the time, the sum of both stresses within the yield surface; each place under a moving contact
+all the time, the sum of both stresses within the yield surface; each point under a moving contact
 meets the stresses of all x. With the principal shear in the plane (Tresca's criterion, the stress
 across the plane being kept between the two others by its own residual stress) the limit is
 
@@ -53,7 +53,7 @@ def _places() -> np.ndarray:
 
 
 def _least_shear(depth: np.ndarray, friction: float) -> np.ndarray:
-    """Largest principal shear (n,) [p0] that every place at depths (n,) [a] meets under the best
+    """Largest principal shear (n,) [p0] that every point at depths (n,) [a] meets under the best
     residual stress r: convex in r, whose bracket is cut by thirds."""
     stress = hertz_stress(UNIT, _places(), depth[:, None], friction)
     apart, square = stress.sx - stress.sz, stress.txz**2

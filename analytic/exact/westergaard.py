@@ -136,7 +136,7 @@ def westergaard_stress(
 ) -> StressState:
     """Stresses [Pa] at x from a crest, z >= 0 [m] (broadcast together), under p and q = friction p
     in +x, of a body that does not stretch along x on average. With w = sin psi, psi of the complex
-    place x + iz, and R = sqrt(w - S) sqrt(w + S), the surface's p is the real part of
+    point x + iz, and R = sqrt(w - S) sqrt(w + S), the surface's p is the real part of
 
         G = 2i pm cos psi/(w + R),   in full contact G = pm + p* e^(2i psi),
 
@@ -163,7 +163,7 @@ def westergaard_stress(
 def westergaard_extremes(
     contact: WestergaardContact, poissons_ratio: float, friction: float = 0.0
 ) -> dict[str, Extremum]:
-    """Largest `tau1` and |`txz`| [Pa] down to a wavelength, and their places."""
+    """Largest `tau1` and |`txz`| [Pa] down to a wavelength, and their positions."""
     x = np.linspace(-0.5, 0.5, 241) * contact.wavelength
     z = np.concatenate([[0.0], np.geomspace(1e-4, 1.0, 160)]) * contact.wavelength
     state, extremes = westergaard_stress(contact, x, z[:, None], poissons_ratio, friction), {}

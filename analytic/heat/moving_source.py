@@ -45,7 +45,7 @@ class HeatedSurface:
         return -self.velocity * self.pitch / (2.0 * self.material.diffusivity)
 
     def kernel(self, depth: float = 0.0) -> np.ndarray:
-        """T [K] at `depth` [m] per flux [W/m^2] of a hat, (2 count - 1,): from the place that lies
+        """T [K] at `depth` [m] per flux [W/m^2] of a hat, (2 count - 1,): from the point that lies
         count - 1 pitches behind the hat (towards -x) to as far before it."""
         whole, first = _cell_integrals(
             self.count, self.peclet, depth / self.pitch, self.reach / self.pitch
@@ -102,7 +102,7 @@ def _cell_integrals(
 def line_source(
     x: np.ndarray, peclet: float, depth: float | np.ndarray, reach: float = np.inf
 ) -> np.ndarray:
-    """e^{-X} K0(R) at places x before the source, or ln(reach / r) at rest: pi k T / Q. Lengths in
+    """e^{-X} K0(R) at points x before the source, or ln(reach / r) at rest: pi k T / Q. Lengths in
     a unit of which `peclet` is -velocity / (2 kappa)."""
     distance = np.hypot(x, depth)
     if peclet == 0.0:

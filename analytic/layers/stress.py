@@ -24,7 +24,7 @@ from analytic.stress.elements import uniform_pitch
 from analytic.stress_state import StressState
 
 _FADED = 45.0  # of k times the distance in which a wave falls: e^-45 45^2 is 6e-17
-_BLOCK = 256  # nodes whose phases are one block's times one place's
+_BLOCK = 256  # nodes whose phases are one block's times one point's
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class AddedStress:
         pressure: np.ndarray,
         x_range: tuple[float, float],
     ) -> "AddedStress":
-        """Under hats of pressure (n,) [Pa] on uniform x_nodes (n,) [m], for places in x_range [m].
+        """Under hats of pressure (n,) [Pa] on uniform x_nodes (n,) [m], for x in x_range [m].
         Raises ValueError for nodes that are not uniform."""
         pitch = uniform_pitch(x_nodes, pressure)
         loaded = np.flatnonzero(pressure)
@@ -60,7 +60,7 @@ class AddedStress:
         return cls(body, middle, k, share * _transform(k, nodes[0] - middle, pitch, pressure))
 
     def field(self, x: np.ndarray, z: np.ndarray, below: bool = False) -> np.ndarray:
-        """sx, sz, txz under p and under q = p in +x (6, len(z), len(x)) [Pa], at the places x (m,)
+        """sx, sz, txz under p and under q = p in +x (6, len(z), len(x)) [Pa], at the points x (m,)
         and depths z (k,) [m]; `below` the layer, where z >= t. ValueError for other depths."""
         phase = np.exp(1j * np.outer(self.wavenumber, x - self.middle))
         added = np.empty((6, len(z), len(x)))

@@ -1,6 +1,6 @@
 """Rough sphere (Greenwood and Tripp 1967) and rough cylinder: summits on a body that gives way.
 
-Every place bears as a nominally flat surface there (`analytic.statistics.nominally_flat`), and its
+Every point bears as a nominally flat surface there (`analytic.statistics.nominally_flat`), and its
 pressure sinks the bulk as an elastic half-space: a compact nonlinear integral equation, solved by
 Newton's method.
 
@@ -143,7 +143,7 @@ def _newton(bulk: "_Bulk", unknown: np.ndarray, load: float, bearing: float) -> 
 class _Bulk:
     """Nodes `rho` (n,) >= 0 within a reach, `weights` of integrals over the area or both sides, and
     `deflection` (n, n) from pressures that vanish there; `interpolated` takes values at the nodes
-    to those at other places."""
+    to those at other points."""
 
     rho: np.ndarray
     weights: np.ndarray

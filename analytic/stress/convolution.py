@@ -131,7 +131,7 @@ def on_grid(load: np.ndarray, subdivisions: int) -> tuple[np.ndarray, int]:
 def surface_load(
     source: np.ndarray, places: np.ndarray, subdivisions: int, element: Element
 ) -> np.ndarray:
-    """The elements' own load at places on the grid [Pa], a strip's end counting half to it."""
+    """The elements' own load at points of the grid [Pa], a strip's end counting half to it."""
     near = np.arange(-subdivisions, subdivisions + 1) / subdivisions
     shape = 1.0 - np.abs(near) if element == "hat" else 0.5 + 0.5 * np.sign(0.5 - np.abs(near))
     if len(source) == 0:

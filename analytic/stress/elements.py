@@ -164,7 +164,7 @@ def _strip_stretch(
     return 2.0 / np.pi * np.where(v < 0.1, deep, np.arcsinh(v) - v * fraction)
 
 
-_PITCH_TOLERANCE = 1e-6  # of the pitch: how far a node may stand from its place on the grid
+_PITCH_TOLERANCE = 1e-6  # of the pitch: how far a node may stand from its point of the grid
 
 
 def uniform_pitch(x_nodes: np.ndarray, pressure: np.ndarray) -> float:
@@ -185,9 +185,9 @@ def uniform_pitch(x_nodes: np.ndarray, pressure: np.ndarray) -> float:
 def from_nearest(
     nodes: np.ndarray, pitch: float, x: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places x (m,) [m] and nodes (n,) [m], ascending, by whole pitches, which rounding spares.
-    Whole pitches (n,) from the first node to each; those to the node nearest to each place (m,),
-    and the pitches from there to the place (m,), 0 at a node as it was given."""
+    """Points x (m,) [m] and nodes (n,) [m], ascending, by whole pitches, which rounding spares.
+    Whole pitches (n,) from the first node to each; those to the node nearest to each point (m,),
+    and the pitches from there to the point (m,), 0 at a node as it was given."""
     whole = np.rint((nodes - nodes[0]) / pitch).astype(int)
     nearest = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
     return whole, whole[nearest], (x - nodes[nearest]) / pitch

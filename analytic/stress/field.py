@@ -50,7 +50,7 @@ def friction_field(
     """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
 
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The grid
-    contains the nodes' places and divides each pitch into `subdivisions`, within and beyond the
+    contains the nodes and divides each pitch into `subdivisions`, within and beyond the
     nodes' extent; every `stride`-th of its points counts. On z = 0, sz = -p and txz = -q exactly.
     Each level is right to rounding of the largest stress at its depth.
 

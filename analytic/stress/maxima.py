@@ -50,10 +50,10 @@ def stress_maxima(
 
     `beside` gives further stresses [Pa] at x, z [m], which the field has already.
     `cells` (k,) [m] are where one cell of x ends and the next begins, ascending. Where the highest
-    point of one is below NEAR of the highest of all, that is taken; without a point: 0, no place.
+    point of one is below NEAR of the highest of all, that is taken; without a point: 0, no x.
 
     The field's highest local maxima, up to STARTS of them, are each followed off the grid by
-    `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
+    `stress_at`, no further than the window, and the highest wins: the position is good to 1e-5 of a
     cell where the quantity is smooth, and the value never below the field's own largest. A field
     coarser than the asperities can miss peaks that it does not show.
     """

@@ -5,8 +5,8 @@ zero one pitch beyond the ends, as "strip" each holds over its own pitch. Tracti
 shape. Few pairs of point and element are summed one by one, more by a tree
 (`analytic.stress.tree`). Both agree to 1e-13 of the largest load.
 
-Nodes count as whole pitches h apart, and a place by its distance from the nearest one: at a node no
-rounding of the coordinates enters. Between nodes it moves the place by up to eps |x|, which changes
+Nodes count as whole pitches h apart, and a point by its distance from the nearest one: at a node no
+rounding of the coordinates enters. Between nodes it moves the point by up to eps |x|, which changes
 a stress by about eps |x|/h times the difference between neighbouring pressures: 5e-12 of it at
 h = 1 um, 5 cm from the origin.
 """

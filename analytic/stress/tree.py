@@ -9,7 +9,7 @@ ones of those halves of the parent's near boxes that are not near themselves. On
 points, and their ancestors, have one. The work grows with n + m in place of n m.
 
 Farther from the box of all the load than twice its half-width its own outer expansion is taken. All
-are right to 1e-14 of the largest pressure, at places that are known to rounding as
+are right to 1e-14 of the largest pressure, at points that are known to rounding as
 `analytic.stress.points` says.
 """
 
@@ -171,7 +171,7 @@ def near_stress(
     line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, z: np.ndarray, box: np.ndarray
 ) -> np.ndarray:
     """The four stresses (4, points) of the elements in each point's near boxes on the finest level.
-    At places (points,) `rest` from the node of number `nearest`, and z below, in pitches."""
+    At points (points,) `rest` from the node of number `nearest`, and z below, in pitches."""
     unique, which = np.unique((box - NEIGHBOURS) * LEAF, return_inverse=True)
     index = unique[:, None] + np.arange(-1, (2 * NEIGHBOURS + 1) * LEAF + 1)
     loaded = (index >= 0) & (index < len(line.load))

@@ -80,12 +80,12 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
 
 
 def turning_points(curve: PPoly) -> np.ndarray:
-    """Places [m], ascending, that include every extreme of a piecewise cubic and both its ends."""
+    """Points [m], ascending, that include every extreme of a piecewise cubic and both its ends."""
     return np.sort(np.append(curve.x, crossings(curve.derivative(1))))
 
 
 def peaks(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (n,) [m] of the spline's inner maxima, heights (n,) [m], curvatures (n,) [1/m] > 0."""
+    """Points (n,) [m] of the spline's inner maxima, heights (n,) [m], curvatures (n,) [1/m] > 0."""
     curve = profile.spline()
     place = np.unique(crossings(curve.derivative(1)))
     bend = curve(place, 2)
@@ -101,7 +101,7 @@ def summits(profile: Profile) -> tuple[float, float]:
 
 
 def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:
-    """The part of a piecewise cubic between two places [m]."""
+    """The part of a piecewise cubic between two positions [m]."""
     inside = curve.x[(curve.x > start) & (curve.x < stop)]
     x = np.concatenate(([start], inside, [stop]))
     return CubicHermiteSpline(x, curve(x), curve(x, 1))
@@ -130,7 +130,7 @@ def shortest_wavelength(profile: Profile) -> float:
 
 def power_spectrum(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
     """Wavenumbers (m,) [1/m] above 0 and the one-sided power spectral density (m,) [m^3] there. Of
-    the spline at even places, about its mean, under a Hann window. The density's integral over the
+    the spline at even steps, about its mean, under a Hann window. The density's integral over the
     wavenumber is the mean square height, but for the window."""
     count = next_fast_len(min(len(profile.x), MAX_RESAMPLED), real=True)
     middles = (np.arange(count) + 0.5) / count
@@ -157,7 +157,7 @@ def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def crossings(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
-    """Places where a piecewise polynomial takes `value`, ascending, without its constant pieces."""
+    """Points where a piecewise polynomial takes `value`, ascending, without its constant pieces."""
     if len(piecewise.c) <= 3 and value == 0.0:
         return _zeros_of_quadratics(piecewise)
     zeros = piecewise.solve(value, discontinuity=False, extrapolate=False)

@@ -38,7 +38,7 @@ class StandardRoughness:
     cutoff: float  # [m] lambda_c
     short_cutoff: float | None  # [m] lambda_s
     sections: int  # section lengths in the evaluation length
-    start: float  # [m] place on the trace where the first section begins
+    start: float  # [m] position on the trace where the first section begins
     ra: float  # [m] mean of |z|
     rq: float  # [m] root mean square of z
     rsk: float  # skewness of z, 0 for a flat profile

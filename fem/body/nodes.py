@@ -31,8 +31,8 @@ class Nodes:
 
     degree: int
     elements: np.ndarray  # (m, 3, 6 or 10) of each triangle, in the order of `fem.body.triangle`
-    flat: np.ndarray  # (n, 2) [m] places in the flat block
-    real: np.ndarray  # (n, 2) [m] places in the real body
+    flat: np.ndarray  # (n, 2) [m] in the flat block
+    real: np.ndarray  # (n, 2) [m] in the real body
 
 
 def nodes_of(mesh: BlockMesh, degree: int) -> Nodes:
@@ -69,10 +69,10 @@ def _cubic(corner: np.ndarray, vertices: int, middle: np.ndarray) -> np.ndarray:
 
 
 def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray:
-    """Places (m, k) of another program's nodes of each triangle among ours.
+    """Numbers (m, k) of another program's nodes of each triangle among ours.
 
     order      (k, 3) barycentric coordinates of its nodes times the degree, in its order
-    vertices   (m, 3) place among our vertices of each of its vertices"""
+    vertices   (m, 3) number among our vertices of each of its vertices"""
     base = (degree + 1) ** np.arange(3)
     place = np.empty(base.sum() * degree + 1, dtype=np.int64)
     place[lattice(degree) @ base] = np.arange(len(lattice(degree)))

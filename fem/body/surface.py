@@ -3,7 +3,7 @@
 Nomenclature
     x_i                  hat nodes [m], i = 0 ... n+1, ascending; no pressure at the outer two
     phi_i(x)             hat function: 1 at x_i, 0 at its neighbours, linear between; i = 1 ... n
-    t, x(t)              place on an edge of the surface, 0 to 1, and its x [m]: a quadratic
+    t, x(t)              parameter on an edge of the surface, 0 to 1, and its x [m]: a quadratic
     N_a(t)               shape function of surface node a, of the displacement's degree
     (d_x, d_z)           direction along which a pressure acts
     B                    (2k, n) nodal force of a unit hat, B[2a + c, i] = integral N_a phi_i d_c dx
@@ -32,7 +32,7 @@ Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes of the top side in order: vertices at every `degree`-th place, inner nodes between."""
+    """Nodes of the top side in order: vertices at every `degree`-th index, inner nodes between."""
 
     x: np.ndarray  # (k,) [m] of the real body, ascending
     point: np.ndarray  # (k,) numbers among the body's nodes
@@ -191,7 +191,7 @@ def _length_and_bend(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def along_edges(edges: np.ndarray, edge: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """x (k,) [m] at places t (k,), 0 to 1, of the edges numbered `edge` (k,) among (e, 3)."""
+    """x (k,) [m] at t (k,), 0 to 1, of the edges numbered `edge` (k,) among (e, 3)."""
     length, bend = _length_and_bend(edges[edge])
     return edges[edge, 0] + t * (length + bend * (1.0 - t))
 

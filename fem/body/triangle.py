@@ -58,14 +58,14 @@ def slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
 
 
 def edge_shapes(t: np.ndarray, degree: int = 2) -> np.ndarray:
-    """Shape functions (..., degree + 1) of an edge's nodes in turn, at places (...) from 0 to 1."""
+    """Shape functions (..., degree + 1) of an edge's nodes in turn, at t (...) from 0 to 1."""
     factor, _ = _factors(np.stack([1.0 - t, t], axis=-1), degree)
     i = np.arange(degree + 1)
     return factor[..., 0, degree - i] * factor[..., 1, i]
 
 
 def edge_slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
-    """d shape / dt (q, degree + 1) of an edge's nodes in turn, at places t (q,) from 0 to 1."""
+    """d shape / dt (q, degree + 1) of an edge's nodes in turn, at t (q,) from 0 to 1."""
     power = np.arange(degree + 1)
     slope = power * at[:, None] ** np.maximum(power - 1, 0)
     return slope @ np.linalg.inv((power[:, None] / degree) ** power)

@@ -4,24 +4,24 @@
     T p = integral p dg/du dX    on both bodies
 
 r(x) is the height of the roller's deformed surface in the roller's own frame (x as the rough
-body's, z into the roller), at the place x where the point of the rough body is now. On an edge of
+body's, z into the roller), at the x where the point of the rough body is now. On an edge of
 the roller (x, r) = sum M_a(t) (x_a, r_a), and
 
     dg = dz + sum M_a dr_a + s (dx - sum M_a dx_a),   s = dr/dx.
 
-Forces at a point act on both bodies at the same place and against each other: p (s, 1) per
+Forces at a point act on both bodies at the same point and against each other: p (s, 1) per
 undeformed length of the rough body, with friction towards +x along the common tangent (1, -s) on
 it. p is the pressure's vertical force per undeformed length of x of the rough body.
 
 The slope of quadratic edges jumps at their ends by the order of their length squared. Forces follow
 instead the line through the slopes in the middle of neighbouring edges, of the same order and
 without jumps; Newton's method would not settle where a point under a hat crosses such an end. The
-gap itself and the places of forces are the edges' own: constant pressures between conforming
+gap itself and the points of forces are the edges' own: constant pressures between conforming
 bodies stay exact. The tangent leaves the jumps out too and is symmetric without friction. The
 integrals are cut where edges of either body end: across the ends of the roller's the pressure
 would oscillate by 0.15 % of its peak, whatever the size of the elements.
 
-Nomenclature: X, Z place in the undeformed rough body [m], u displacement [m], p hat pressures [Pa],
+Nomenclature: X, Z point of the undeformed rough body [m], u displacement [m], p hat pressures [Pa],
 phi_i hats, N and M_a shape functions of the rough body's surface and of the roller's."""
 
 import numpy as np
@@ -71,7 +71,7 @@ class TwoBodies:
 
 class DeformedSurface:
     """The current surface of a body whose displacements are quadratic. Raises FemError where x no
-    longer ascends along it, and for places x beyond its ends."""
+    longer ascends along it, and for x beyond its ends."""
 
     def __init__(self, body: ElasticBody, displacement: np.ndarray) -> None:
         self.x, self.z = (body.nodes + displacement)[body.surface.point].T
@@ -82,7 +82,7 @@ class DeformedSurface:
         self.chord = np.diff(self.z[::2]) / np.diff(self.x[::2])
 
     def edge(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers (k,) of the edges below places x (k,) [m], and where on them, 0 to 1."""
+        """Numbers (k,) of the edges below points x (k,) [m], and where on them, 0 to 1."""
         if np.any((x < self.x[0]) | (x > self.x[-1])):
             raise FemError("the contact reaches beyond the end of a body's surface")
         edge = np.searchsorted(self.x[2:-1:2], x)

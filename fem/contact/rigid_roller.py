@@ -1,14 +1,14 @@
-"""Contact of a rigid roller with the deformed surface, at its current place and normal.
+"""Contact of a rigid roller with the deformed surface, at its current position and normal.
 
     g_i = integral phi_i (z + s(x)) dX,   (x, z) = (X + u_x, Z + u_z)
     T p = integral N p ((s', 1) + friction (1, -s')) dX
 
-The roller's normal at the current place of a surface point is (s', 1) up to its length, so that the
+The roller's normal at the current x of a surface point is (s', 1) up to its length, so that the
 force is the gap's derivative. p is the pressure's vertical force per undeformed length of x, and
 p / (dx/dX) the pressure on the deformed surface. With friction's part the load is the integral of
 (1 - friction s') p dX.
 
-Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
+Nomenclature: X, Z point of the undeformed body [m], u displacement [m], s(x) rise of the roller
 above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions."""
 
 from collections.abc import Callable, Sequence
@@ -21,7 +21,7 @@ from fem.body.sums import matrix_of
 from fem.body.surface import hat_points
 from fem.contact.terms import ContactTerms
 
-# s, s' and s'' of places x
+# s, s' and s'' at x
 Roller = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 # Part of the radius beyond which a circle goes on straight, slope 2: hats without contact lie there
@@ -51,12 +51,12 @@ def parabola(radius: float) -> Roller:
 
 
 class HatsOnSurface:
-    """Points under hats (count + 2,) [m] of a body's surface. The hats belong to places of the
+    """Points under hats (count + 2,) [m] of a body's surface. The hats belong to points of the
     undeformed body. Raises ValueError if one sticks out of the surface.
 
     nodes     of all displacements, of which the body's are the first; None: there are no others
-    cuts      further places [m] that no Gauss rule spans
-    x, z      (q, 2 nodes) take x and z at the q points from places of the nodes
+    cuts      further x [m] that no Gauss rule spans
+    x, z      (q, 2 nodes) take x and z at the q points from those of the nodes
     hats      (q, count) values of the hats
     weight    (q,) [m] of the points
     weighted  (q, count) [m] hats times weight"""

@@ -63,7 +63,7 @@ class ThermalBody:
         return Locator(real_points(self.mesh), self.mesh.triangles, bool(np.any(self.mesh.shift)))
 
     def at(self, places: np.ndarray, temperature: np.ndarray) -> np.ndarray:
-        """Temperature (k,) [K] at places (k, 2) [m], NaN outside the body, from the nodes' (n,)."""
+        """Temperature (k,) [K] at points (k, 2) [m], NaN outside the body, from the nodes' (n,)."""
         element, reference = self._locator(np.asarray(places, dtype=float))
         nodal = temperature[self.numbering.elements[element]]
         value = (shapes(reference, self.numbering.degree) * nodal).sum(axis=1)

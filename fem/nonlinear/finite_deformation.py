@@ -1,4 +1,4 @@
-"""A body pressed by a roller without linearisation: finite strains, current places and normals.
+"""A body pressed by a roller without linearisation: finite strains, current positions and normals.
 
 The body follows its law at finite strains (`fem.nonlinear.hyperelastic.HyperelasticBody`). The
 contact is on its deformed surface, with a rigid roller (`fem.contact.rigid_roller.CurrentContact`)
@@ -6,7 +6,7 @@ or an elastic one, itself at finite strains (`fem.contact.deformed_roller.PairCo
 
 Friction drags the bodies past each other, by an amount that for unbounded bodies is known but for a
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
-itself the roller would stand over another place of the trace. Both are moved back along x until the
+itself the roller would stand over another point of the trace. Both are moved back along x until the
 displacement of each surface along x is zero in the pressure's mean: under load the roller stands
 where the scene has put it. Of a disc the middle of the circle that fits its deformed rim best is
 moved back. Friction also turns it, which moves its surface and not its shape: it is turned back
@@ -105,7 +105,7 @@ class FiniteDeformation:
         return self.body.at_points(self.displacement)[self.body.top.point]
 
     def _stretched(self, x: np.ndarray) -> np.ndarray:
-        """Deformed over undeformed length along x at undeformed places x."""
+        """Deformed over undeformed length along x at undeformed x."""
         top = self.body.top.x
         return np.interp(x, top, 1.0 + along_surface(top, self._moved)[:, 0])
 

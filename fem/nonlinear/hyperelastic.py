@@ -98,7 +98,7 @@ class HyperelasticBody:
         if self._pattern is None:
             place = (np.repeat(self._component, np.diff(start)), self._component[column])
             size = (len(self._component),) * 2
-            # the place of each value is found once, by numbers in place of values
+            # the index of each value is found once, by numbers in place of values
             self._pattern = csr_matrix((np.arange(len(value), dtype=float), place), shape=size)
             self._order = self._pattern.data.astype(np.int64)
         data = (value[self._order], self._pattern.indices, self._pattern.indptr)

@@ -45,7 +45,7 @@ class FinitePlasticContact(PlasticContact):
     """`PlasticContact` at finite strains. The pressure is the vertical force per undeformed length
     of x, and the plastic strain logarithmic, in the axes of the undeformed body."""
 
-    deformed: FiniteDeformation  # places, stretches, Cauchy's pressure and gap; not its stresses
+    deformed: FiniteDeformation  # positions, stretches, Cauchy's pressure and gap; not its stresses
 
 
 class _Surfaces:

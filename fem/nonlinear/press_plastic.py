@@ -7,7 +7,7 @@ last one, and is solved by `fem.nonlinear.newton`.
 
 The increments follow the contact's edges. Where an edge jumps over several hats in one increment,
 the metal below has flowed to the pressure that ended there, and keeps its mark: a peak of pressure
-stays at the edge's former place. The next load is therefore the one at which, in the contact that
+stays where the edge was before. The next load is therefore the one at which, in the contact that
 the increment starts from, the edges of patches travel as far as allowed, one hat by default. Of
 many edges that is the mean: those that run ahead close gaps of small slope, and their marks are
 small.

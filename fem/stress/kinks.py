@@ -6,7 +6,7 @@ displacement minus these fields is smooth: its stresses can be recovered (`fem.s
 interpolated (`fem.stress.stress`). Weights limit each kink to the elements around it.
 
 Nomenclature
-    w            place relative to the kink, along the surface + i times into the body [m]
+    w            point relative to the kink, along the surface + i times into the body [m]
     f            jump of the slope of s_nn - i s_nt [Pa/m] along the surface
     L, I         w ln w and its integral w^2 (ln w - 1/2) / 2; both vanish at the kink
     s_tt, s_nn, s_nt   stresses along the surface, across it, shear
@@ -50,7 +50,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Kinks:
-    """Places in ascending x (k,) as x + i z [m], unit tangents towards +x, jumps f [Pa/m]: (k,), or
+    """Points in ascending x (k,) as x + i z [m], unit tangents towards +x, jumps f [Pa/m]: (k,), or
     (k, c) for c loads at once, whose sums have a further axis before the components."""
 
     place: np.ndarray

@@ -1,6 +1,6 @@
-"""The largest value of a stress quantity in a body, and its place.
+"""The largest value of a stress quantity in a body, and its position.
 
-Nodes alone miss the place of a flat maximum by half an element. A rough estimate at all nodes says
+Nodes alone miss the point of a flat maximum by half an element. A rough estimate at all nodes says
 which elements may hold it; these alone are recovered and sampled, the best of them finely. Away
 from the surface a polynomial fitted to the stresses around
 the best sample gives the maximum: of degree 5 to two rings of elements, next to the surface or
@@ -149,7 +149,7 @@ def _between_nodes(
     triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
 
     def sampled(elements: list[np.ndarray], count: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Values (r, q), -inf outside, and places (r, q, 2) in the elements (r,) of each window."""
+        """Values (r, q), -inf outside, and points (r, q, 2) in the elements (r,) of each window."""
         held, which = np.unique(np.concatenate(elements), return_inverse=True)
         place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(_lattice(count)))
         stress = np.moveaxis(samples.of(held, count), -1, 0)
@@ -217,7 +217,7 @@ def _top(
     fine: np.ndarray,
     place: np.ndarray,
 ) -> Extremum:
-    """The largest value by samples (r, q) at places (r, q, 2) in the best elements (r,). points
+    """The largest value by samples (r, q) at points (r, q, 2) in the best elements (r,). points
     (k, 2) are the nodes' [m], surface (k,) whether they are on it."""
     top = fine.max()
     if top == -np.inf:
@@ -247,7 +247,7 @@ def _lattice(count: int) -> np.ndarray:
 
 
 def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
-    """Whether places (..., 2) lie in the window."""
+    """Whether points (..., 2) lie in the window."""
     x0, x1, z1 = window or (-np.inf, np.inf, np.inf)
     return (place[..., 0] >= x0) & (place[..., 0] <= x1) & (place[..., 1] <= z1)
 

@@ -233,7 +233,7 @@ class Recovery:
     """Recovered stresses at those stress nodes that are asked for, each computed once.
 
     displacement  (n, …, 2) [m], load as for `recovered_stress`; one, or (n, c, 2) and a load of c
-                  friction coefficients: what depends on the mesh and on places is shared
+                  friction coefficients: what depends on the mesh and on points is shared
     known         (k,) at which nodes the stresses are known
     """
 
@@ -328,7 +328,7 @@ class _NearKinks:
     def surface_samples(
         self, load: SurfaceLoad, displacement: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Patch (s,), place (s, q, 2), stress without kinks (s, q, …, 3) on the surface's edges."""
+        """Patch (s,), point (s, q, 2), stress without kinks (s, q, …, 3) on the surface's edges."""
         body, (patch, edge) = self.body, self.patches.beside.T
         point = body.top.point[2 * edge[:, None] + np.arange(3)]
         node = body.surface.point[body.degree * edge[:, None] + np.arange(body.degree + 1)]

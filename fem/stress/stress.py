@@ -32,7 +32,7 @@ class FurtherStress:
     of: tuple[Beside, ...]
 
     def at(self, place: np.ndarray) -> np.ndarray:
-        """sx, sz, txz (…, c, 3) [Pa] at places (…, 2) [m]."""
+        """sx, sz, txz (…, c, 3) [Pa] at points (…, 2) [m]."""
         flat = place.reshape(-1, 2)
         x = flat[:, 0]
         t, depth = tangent_on(self.surface, x), np.maximum(flat[:, 1] - self.surface(x), 0.0)

@@ -32,7 +32,7 @@ class SurfaceLoad:
 
     @cached_property
     def kinks(self) -> Kinks:
-        """Places where the load's slope along the surface jumps."""
+        """Points where the load's slope along the surface jumps."""
         bend, of_traction = self._bend(self._nodal), self._bend(self._nodal_traction)
         at = (bend != 0.0) | (of_traction != 0.0)
         x, bend = self.hats[at], bend[at]

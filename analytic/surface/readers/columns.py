@@ -87,7 +87,7 @@ def _places(table: ProfileTable, scale: float) -> np.ndarray:
 
 
 def _check_places(table: ProfileTable, x: np.ndarray, rows: np.ndarray) -> None:
-    """Refuse samples at one place: `x` ascends, `rows` are theirs in the table."""
+    """Refuse samples at one x: `x` ascends, `rows` are theirs in the table."""
     length = x[-1] - x[0]
     hint = f"; {DECIMAL_COMMAS}" if table.commas_may_be_decimal() else ""
     if length == 0.0:

@@ -30,7 +30,7 @@ class Topography:
     # distance between columns and between rows (of a scan: twice that of its samples), in the same
     # unit; None where the file gives none, or the scan is uneven
     pitch: tuple[float, float] | None
-    x: np.ndarray | None  # (n,) places of an uneven scan, ascending; else None
+    x: np.ndarray | None  # (n,) positions of an uneven scan, ascending; else None
     unit: float | None  # [m] what the file counts in, None where it does not say
     format: str  # of the file, in words
     # names of the channels of which `channel` is this, () where the file has no names
@@ -70,7 +70,7 @@ class MapLine:
 
 
 def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray, np.ndarray]:
-    """Places x (n,), from 0 on a map, and heights (n,) of a scan, or of the chosen line of a map.
+    """Points x (n,), from 0 on a map, and heights (n,) of a scan, or of the chosen line of a map.
 
     In the unit of the topography, which must have a pitch or an x. A line that follows neither
     rows nor columns is sampled at its start, at its end and evenly between at about the smaller
@@ -153,7 +153,7 @@ def _interpolated(heights: np.ndarray, row: np.ndarray, column: np.ndarray) -> n
 
 
 def _cubic(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """First of four samples around each place (n,), and Lagrange's weights of the four (4, n)."""
+    """First of four samples around each x (n,), and Lagrange's weights of the four (4, n)."""
     first = np.clip(np.floor(place).astype(int) - 1, 0, count - STENCIL)
     t = place - first
     weights = (
