@@ -71,9 +71,14 @@ class Result(Found, Printed):
     verdict: str  # holds | fails | inconclusive | not compared | not converged
     why: str
     next: tuple[str, ...]  # what would decide or improve it, as text to paste
-    printed: tuple[str, ...]  # lines that the run printed
     findings: Mapping[str, Findings]  # by study
+    say: Callable[[], tuple[str, ...]] = field(compare=False, repr=False)
     load: Callable[[], RunArrays] = field(compare=False, repr=False)
+
+    @cached_property
+    def printed(self) -> tuple[str, ...]:
+        """Lines that the run printed."""
+        return self.say()
 
     @cached_property
     def arrays(self) -> RunArrays:
@@ -198,8 +203,8 @@ def said_of(run: Run) -> dict[str, object]:
         "verdict": said.kind,
         "why": said.sentence,
         "next": said.paste,
-        "printed": in_lines(summary(run)),
         "findings": run.findings,
+        "say": lambda: in_lines(summary(run)),
         "load": partial(RunArrays.of, run),
     }
 
@@ -239,7 +244,8 @@ def _result(content: Mapping, folder: Path) -> Result:
     result = Result(
         name=one_line(str(folder)),
         **{name: content[name] for name in SAID},
-        **{name: tuple(map(str, content[name])) for name in ("next", "printed")},
+        next=tuple(map(str, content["next"])),
+        say=partial(tuple, map(str, content["printed"])),
         findings={name: Findings(*map(tuple, parts)) for name, parts in studies.items()},
         load=partial(RunArrays.read, folder),
     )
