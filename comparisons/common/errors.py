@@ -37,7 +37,7 @@ class OneLineError(Exception):
 
 
 class InputError(OneLineError, ValueError):
-    """Wrong input, with what is allowed in its place; the command line ends with status 2."""
+    """Wrong input, with what is allowed instead; the command line ends with status 2."""
 
 
 class SceneError(InputError):

@@ -11,7 +11,7 @@ from comparisons.common.tasks import Opens, carried_out
 
 
 class ExecutorWorker:
-    """A place for one task in an executor."""
+    """Worker for one task at a time in an executor."""
 
     def __init__(self, executor: Executor, serve: object = None) -> None:
         self._executor, self._future = executor, Future()

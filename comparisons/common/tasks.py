@@ -352,7 +352,7 @@ def called(here: Here, work: Callable[..., object], *args: object) -> object:
 
 
 def carried_out(work: Work, *args: object) -> tuple[bool, object]:
-    """A task in a place that says nothing before it is done."""
+    """A task in a worker that says nothing before it is done."""
     return _answered(work, Here(), *args)
 
 

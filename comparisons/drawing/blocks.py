@@ -71,7 +71,7 @@ class Block:
     """Items of a section of the page, which the first block of a section gives its title."""
 
     section: str  # id
-    # what a function among them gives for the run stands in its place: an item, several, or None
+    # what a function among them gives for the run stands instead: an item, several, or None
     items: tuple
     title: str = ""
 

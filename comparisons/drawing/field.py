@@ -1,6 +1,6 @@
 """Fields over x and depth as bands of colour, each above its scale.
 
-In: values (m, n) at places x (n,) and depths z (m,). Out: axes of a picture. What is negative is
+In: values (m, n) at x (n,) and depths z (m,). Out: axes of a picture. What is negative is
 striped, so that a grey printer leaves the sign."""
 
 from collections.abc import Sequence

@@ -134,7 +134,7 @@ def stacked(
 
     panels  space above each and its height
     left, right  space beside them
-    Labels have fixed places, so that those of one picture are aligned.
+    Labels have fixed positions, so that those of one picture are aligned.
     """
     width, height = drawn.get_size_inches()
     across = (width - left - right) / width
@@ -149,7 +149,7 @@ def stacked(
 
 
 def near(x: np.ndarray, across: tuple[float, float], margin: float) -> np.ndarray:
-    """Which places lie between two ends, or at most `margin` beyond them."""
+    """Which x lie between two ends, or at most `margin` beyond them."""
     return (x >= across[0] - margin) & (x <= across[1] + margin)
 
 

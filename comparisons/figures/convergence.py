@@ -16,7 +16,7 @@ The extrapolated value is f_0, the uncertainty of the finest value
 but never less than the last change where the changes grow, or shrink more slowly than by
 LOWEST_ORDER. This departs from the paper by measurement. F is 3 by the deviation alone, not
 wherever the observed order is out of range: most sequences show none, for the error of a contact
-depends on where its edge falls between two nodes, another place on each level, so that it is a
+depends on where its edge falls between two nodes, another point on each level, so that it is a
 power of h times a factor of either sign. The distance from fit to finest value is not added to s,
 which contains it; one power stands for the paper's three fits. On 696 figures of
 smooth, layered and rough contacts with exact answers this covers 99 % of the errors, on median by

@@ -286,11 +286,11 @@ class Findings:
     data: object = None
 
     def table(self, name: str, source: str | None = None, **at: float) -> Series | None:
-        """The first series of that name, source and place; None without one."""
+        """The first series of that name, source and `at`; None without one."""
         return next((s for s in self.series if _is_called(s, name, source, at)), None)
 
     def said(self, name: str, source: str | None = None, **at: float) -> str | None:
-        """The text of the first statement of that name, source and place; None without one."""
+        """The text of the first statement of that name, source and `at`; None without one."""
         return next((s.text for s in self.statements if _is_called(s, name, source, at)), None)
 
 

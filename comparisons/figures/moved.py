@@ -5,7 +5,7 @@ In: the figures and series of a recorded run and of its repetition. Out: a row f
 A figure may move by the uncertainty that it states itself, as far as its parts are known; an
 uncertainty by its own size; a column of a series by the norm of its uncertainties; a verdict not at
 all. What states nothing may move by rounding. What a run took or planned is not compared, nor are
-estimates, places, and the levels behind a figure."""
+estimates, positions, and the levels behind a figure."""
 
 import math
 from collections.abc import Iterator, Mapping

@@ -38,7 +38,7 @@ class Quantity:
     # of the smooth contact: what a figure that vanishes is measured by
     scale: Callable[["HertzContact"], float] = lambda hertz: 1.0
     # of convergence under refinement: 2 for the quadratic elements' smooth figures, 1 where the
-    # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
+    # square-root edge of a contact governs, or how well it is found, and of the x of a maximum:
     # there the slope of the stress, of order 1, is zero
     formal_order: float = 1.0
     needs_stress: bool = False  # only with a [stress] table

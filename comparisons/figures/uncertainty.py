@@ -45,7 +45,7 @@ DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
 # displacements' range was seen to leave 2e-3.
 PRESSURE_PER_RESIDUAL = 2e3
 # Of a pitch: how well `contact_patches` finds the edge of a smooth contact between two nodes, at
-# any place of it and on every level (0.047 at worst in 280 contacts).
+# any position of it and on every level (0.047 at worst in 280 contacts).
 EDGE_FOUND = 0.05
 
 
@@ -116,7 +116,7 @@ def length_resolution(pitch: float, patches: int) -> float:
 
 def peak_resolution(pressure: np.ndarray) -> float:
     """How finely the largest pressure can be read from nodal pressures (n,), relative to it. Two
-    models have their peaks at different places between the nodes. Off by half a pitch, a node is an
+    models have their peaks at different points between the nodes. Off by half a pitch, a node is an
     eighth of the second difference too low, and so is an interpolation to other nodes."""
     top = int(np.argmax(pressure))
     before, high, after = np.pad(pressure, 1)[top : top + 3]

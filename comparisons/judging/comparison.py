@@ -6,7 +6,7 @@ difference and of that of tau1 on the common window.
 
 The model is the half-plane. Of a layer or a coating it is also the analytic operator, beside finite
 elements that keep all else that the half-plane assumes: two independent models of one problem,
-which stand in the place of the half-plane's comparison, whose difference is what the layer does."""
+which stand in for the half-plane's comparison, whose difference is what the layer does."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

@@ -75,7 +75,7 @@ def _of(case: Case, run: Solution) -> Iterator[Figure]:
     problem, level = case.problem, run.finest
     half_width, peak, stress = problem.hertz.half_width, peak_position(level), level.stress
     figures = judged(run, problem)
-    # what is not compared [SI], and the places [m] of largest values
+    # what is not compared [SI], and the positions [m] of largest values
     values = {
         "contact_ratio": level.contact_length / (2.0 * half_width),
         "contact_ratio_extent": level.contact_length / level.extent,
@@ -138,7 +138,7 @@ def _series(solved: Solved, name: str) -> Iterator[Series]:
 
 
 def peak_position(level: Level) -> float:
-    """Place [m] of a level's highest pressure."""
+    """Position [m] of a level's highest pressure."""
     return float(level.grid.x[level.solution.pressure.argmax()])
 
 
@@ -155,7 +155,7 @@ def seen(run: Run, room: float) -> tuple[float, float]:
 
 
 def closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
-    """Places and pressures with the feet of the first and last hat; of a periodic surface from one
+    """Nodes and pressures with the feet of the first and last hat; of a periodic surface from one
     end of the period to the other."""
     grid, pressure = level.grid, level.solution.pressure
     ends = (pressure[:0], pressure[:1]) if grid.periodic else (np.zeros(1), np.zeros(1))

@@ -148,7 +148,7 @@ class QuantitiesOfInterest:
     """Compared quantities of one model on one level at one friction coefficient, or a difference of
     such, on the same pressure elements. A largest value is one of each asperity
     (`Problem.asperities`): effects may move the largest of all from one to another, and the
-    difference of two largest values at different places would measure neither."""
+    difference of two largest values at different points would measure neither."""
 
     # by quantity, SI: (k,) one an asperity, (1,) where it is no largest value
     figures: dict[str, np.ndarray]
@@ -202,7 +202,7 @@ def relative_differences(
 
 
 def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
-    """Height [m] of the level's boundary above places x [m], from which depths count."""
+    """Height [m] of the level's boundary above x [m], from which depths count."""
     if level.mesh is None or not problem.rough_boundary:
         return np.zeros(np.shape(x))
     return problem.surface.profile.spline()(x)

@@ -47,7 +47,7 @@ class Case:
 
     @property
     def at(self) -> dict[str, float]:
-        """Its place among the cases of a scene, for the names of figures."""
+        """Friction coefficient of the case, for the names of figures."""
         return {"friction": self.friction}
 
 
@@ -74,7 +74,7 @@ class Solved:
         return next(case for case in self.cases if case.friction == friction)
 
     def contacts(self, model: str) -> list[tuple[dict[str, float], Level]]:
-        """The finest contacts of a model and their place among the cases: each one's, or the only
+        """The finest contacts of a model and their friction coefficients: each one's, or the only
         one, which has none, where friction does not move it."""
         finest = [(case.at, case.runs[model].finest) for case in self.cases]
         first = finest[0][1]

@@ -1,7 +1,7 @@
 """Where the body would begin to flow, and whether an elastic half-plane can stand for it.
 
 In: the half-plane's levels, or the finite elements' without it. Out: figures by friction, against
-first flow, and what an elastic body exceeds beyond doubt.
+first flow, and what an elastic body surely exceeds.
 
 Nomenclature: Y yield stress in tension, k in shear (Y/sqrt 3 by von Mises, Y/2 by Tresca), H
 hardness, tau1 principal shear in the plane, mu friction coefficient, G shear modulus, E* combined
@@ -67,7 +67,7 @@ LEAST_CAP = 2.4  # over Y, of those that fit what finite elements that flow do
 DOES_NOT_APPLY = "the elastic half-plane does not apply"
 YIELD, CRYSTAL = "shear yield stress, Y/√3", "ideal strength of a crystal, G/2π"
 # Without [stress]: the largest shear is that of Hertz's contact of the same peak pressure. That of
-# the scenes that come along is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
+# the shipped scenes is 0.72 to 1.11 of it (friction 0 to 0.6; run in, up to 1.6).
 FROM_PEAK = 0.4
 LEVEL = 1e-6  # of the trace's height: summits that spread less are all as high
 
@@ -77,8 +77,8 @@ class FlowAssessment:
     """Stresses that elastic bodies bear in a scene, against what its body does; limits in Pa."""
 
     scene: Scene
-    # elastic | cap (on the pressure) | plastic (the finite elements flow, the scene's or the whole)
-    # | idle (flow was computed, and moves no figure that is judged)
+    # elastic | cap (pressure is at most the hardness) | idle (flow moves no figure that is judged)
+    # | plastic (the finite elements flow, the scene's own or those of the whole model)
     flow: Literal["elastic", "cap", "plastic", "idle"]
     # Y: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None

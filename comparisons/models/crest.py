@@ -8,7 +8,7 @@ number, as at the apex of a wedge (Johnson 1985, section 5.2)
 until they resolve the curvature that the trace's spline has there. Levels differ by equal amounts
 till then, and by less or to the other side soon after: no fit knows their limit. The load of the
 crest, and how far what lies beside it makes it sink, are known long before. With these the crest
-alone is pressed again, on elements a quarter as wide, its highest place on a quarter of these, and
+alone is pressed again, on elements a quarter as wide, its highest point on a quarter of these, and
 so on to an eighth of the samples' distance.
 
 What lies beside a crest follows from the level's own gap, less what the initial gap and the
@@ -72,7 +72,7 @@ def unresolved_crest(
 def _refined(
     problem: Problem, effects: frozenset[str], grid: HatGrid, solution: ContactSolution, top: int
 ) -> tuple[HatGrid, ContactSolution]:
-    """The elements about a node, and pressures of the same load on finer ones in their place."""
+    """The elements about a node, and pressures of the same load on finer ones instead."""
     reach = min(REACH, grid.count // 2 - 1)
     first, last = top - reach, top + reach
     if not grid.periodic:

@@ -222,7 +222,7 @@ class Level:
 
 @dataclass(frozen=True)
 class Solution:
-    """One model at one friction coefficient on its levels, coarse to fine, or in their place what a
+    """One model at one friction coefficient on its levels, coarse to fine, or instead what a
     study finds on them."""
 
     name: str

@@ -290,7 +290,7 @@ def _whole(problem: Problem, pitch: float) -> float:
 
 
 def standing_out(values: np.ndarray, least: float) -> list[int]:
-    """Places of the largest values (n,) between falls of `least` or more on both sides."""
+    """Indices of the largest values (n,) between falls of `least` or more on both sides."""
     places, place, low, rises = [], 0, values[0], False
     for k, value in enumerate(values):
         if not rises:

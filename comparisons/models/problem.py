@@ -44,7 +44,7 @@ class Window:
     ends: tuple[float, float]  # x [m] between which extremes are searched, however dense x is
 
     def holds(self, x: np.ndarray) -> np.ndarray:
-        """Whether places x [m] lie where extremes are searched."""
+        """Whether x [m] lie where extremes are searched."""
         return (x >= self.ends[0]) & (x <= self.ends[1])
 
     def stride(self, pitch: float) -> int:
@@ -159,7 +159,7 @@ class Problem:
 
     @property
     def knots(self) -> np.ndarray | None:
-        """(k,) [m] places where the gap's third derivative jumps, None if smooth."""
+        """x (k,) [m] where the gap's third derivative jumps, None if smooth."""
         if self.period is not None:
             one = self.surface.profile.x[:-1]
             return np.concatenate([one + k * self.period for k in (-2, -1, 0, 1, 2)])

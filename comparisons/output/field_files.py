@@ -6,7 +6,7 @@ texts there. The scene stands as text in contact.csv beside it, too.
 
 Numbers are in single precision; those on a mesh of finite elements have 17 significant bits, which
 moves each by less than 7.6e-6 of itself: a tenth of the least uncertainty that a stress of a scene
-that comes along has there (8.2e-5). They stand at the corners of the elements: files are for
+that is shipped has there (8.2e-5). They stand at the corners of the elements: files are for
 looking at, and the nodes between corners, three times as many, are left to mesh.msh. Largest values
 of a run are not read from them."""
 

@@ -33,7 +33,7 @@ def scene_names() -> list[str]:
 
 
 def benchmark_names() -> list[str]:
-    """Scenes that come along with what is published of them."""
+    """Shipped scenes with what is published of them."""
     return sorted(path.stem for path in BENCHMARKS.glob("*.toml"))
 
 

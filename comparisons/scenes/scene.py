@@ -1,7 +1,7 @@
 """A scene: what is asked, as its file has it, checked, in SI, frozen.
 
 What a file leaves out and what follows from the rest stands in the sections as well. Where the
-surface is needed (the trace, the place of the roller on it) see `comparisons.scenes.surface`.
+surface is needed (the trace, the position of the roller on it) see `comparisons.scenes.surface`.
 A study has its section in a module of `comparisons.scenes.studies`, of the section's name.
 What is wrong is one line: "file: section.field: problem; allowed is …"."""
 

@@ -18,7 +18,7 @@ The zone reaches over the depths about the least f where f < QUIET min(f_A, f_H)
                       then the least f below the largest one
 
 and inconclusive where the uncertainty of the ratio reaches across QUIET. A mean square has no edge
-or peak that a mesh or a window could miss, every depth and place counts alike in both models, and
+or peak that a mesh or a window could miss, every depth and x counts alike in both models, and
 nothing says beforehand how deep asperities reach. The same rule on the largest tau1 below a single
 asperity tells which of them bridge the zone.
 

@@ -58,7 +58,7 @@ class DeckBody:
 
     @property
     def surface(self) -> np.ndarray:
-        """Places (k,) among the points of the nodes that may touch, ascending along x."""
+        """Indices (k,) among the points of the nodes that may touch, ascending along x."""
         triangle, edge = self.faces.T
         local = np.column_stack([edge, (edge + 1) % 3, edge + 3])
         nodes = np.unique(self.triangles[triangle[:, None], local])

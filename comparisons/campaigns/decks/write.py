@@ -43,7 +43,7 @@ LAWS = {"neo-hookean": HYPERELASTIC, "st-venant-kirchhoff": ELASTIC}
 OF_FLOW = 0.02  # of the load: an increment in which a body flows
 FARTHEST, FLOW_ROWS = 10.0, 60  # plastic strain that rows of a flow stress reach to, and how many
 GAP_POINTS = 8  # an edge, of the sampled gap
-SAME = 1e-6  # of an edge: places that are one
+SAME = 1e-6  # of an edge: points that are one
 
 
 @dataclass(frozen=True, repr=False)
@@ -255,7 +255,7 @@ def _corners(body: DeckBody) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _hats(deck: DeckProblem, tops: list[np.ndarray]) -> np.ndarray:
-    """Places (n,) [mm] of the pressures: vertices on the tops of all bodies, well inside the
+    """Positions (n,) [mm] of the pressures: vertices on the tops of all bodies, well inside the
     refined ranges, where their neighbours are the same on all."""
     x = tops[0]
     inside = np.zeros(len(x), dtype=bool)

@@ -102,7 +102,7 @@ def write_first_scene(
     force    replace the scene's file, and the picture's
     draw     a picture of the trace beside the scene, as SVG
     ask      answers questions about what no trace shows, with nothing for an example
-    Raises InputError, and writes nothing, where an option, profile or place for the scene cannot be
+    Raises InputError, and writes nothing, where an option, profile or path for the scene cannot be
     used."""
     options = options or {}
     read_by = sections_of_options(options).get("profile", {})

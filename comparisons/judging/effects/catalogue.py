@@ -218,7 +218,7 @@ def model_with(
 
 
 def law_variants(whole: Model, laws: tuple[OpenLaw, ...]) -> dict[tuple[int, str], Model]:
-    """The whole with each probe, by place in `laws` and the probe's name."""
+    """Whole models with each probe, by index in `laws` and the probe's name."""
     variants = {}
     for number, open_law in enumerate(laws):
         for probe, law in open_law.probes.items():

@@ -1,13 +1,13 @@
 """Changes by the law of elasticity, where the scene leaves it open.
 
-In: a scene whose whole model deforms finitely. Out: the laws with which the whole is solved once
+In: a scene whose whole model deforms finitely. Out: the laws with which it is solved once
 more on its coarsest level, and what they say of every solid that may be meant.
 
 All laws have one limit of small strains. Their next terms have Murnaghan's constants l and m (n
 moves nothing in the plane; `analytic.material.third_order` has those of every law). So a law is a
-point (l/mu, m/mu), and what it changes is linear in this, to first order in the strain. The whole's
+point (l/mu, m/mu), and what it changes is linear in this, to first order in the strain. The model's
 own law and two others are three points; the plane through their figures holds every solid. The two
-are solids themselves, that span the largest triangle with the whole's.
+are solids themselves, that span the largest triangle with the model's.
 
 Where the scene names no law, the error lies between those of the published solids of its kind.
 Where it names a solid whose constants were measured, each is moved, and the change is scaled to its
@@ -51,7 +51,7 @@ def point_of(law: Law, material: Material) -> np.ndarray:
 class OpenLaw:
     """Law that is not known of one body, or of both where they are of one solid."""
 
-    material: Material  # with the law that the whole has
+    material: Material  # with the whole model's law
     solids: tuple[tuple[str, Law], ...]  # that may be meant, with the body's own moduli
     # of measured constants, which the probes move one by one: standard errors over the moves
     shares: tuple[float, ...] = ()
@@ -150,9 +150,9 @@ def _scattered(material: Material) -> OpenLaw:
 
 @dataclass(frozen=True)
 class LawSpread:
-    """Changes of the whole's figure by the law, relative to it."""
+    """Changes of the whole model's figure by the law, relative to it."""
 
-    middle: float = 0.0  # of the published solids, against the law that the whole has
+    middle: float = 0.0  # of the published solids, against the whole model's law
     half: float = 0.0  # of their range, about its middle
     scatter: float = 0.0  # of measured constants, for 95 %
 

@@ -43,7 +43,7 @@ class EffectSelection:
     added: frozenset[str]  # computed beside, for the verdict
     impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
     estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
-    laws: tuple[OpenLaw, ...] = ()  # of elasticity, with which the whole is solved once more
+    laws: tuple[OpenLaw, ...] = ()  # with which the whole model is solved once more
     found: frozenset[str] = frozenset()  # those that were computed, and turned out negligible
     # [s] budget.time in which finite strain of what flows can be computed, where it is too short
     time: float | None = None

@@ -1,8 +1,8 @@
-"""Which model suffices: the cheapest whose every judged error holds against the whole.
+"""Which model suffices: the cheapest whose every judged error holds against the whole model.
 
 In: the error budget of a finished comparison, whose finite elements are solved already. Out: a
-judged figure a rung, quantity and friction coefficient; what each rung took; which one suffices,
-and which is worth trying next. A rung is a model, from the cheapest to the whole: Hertz's contact
+judged figure by model, quantity and friction coefficient; what each model took; which one suffices,
+and which is worth trying next. Models go from the cheapest to the whole one: Hertz's contact
 is a closed form, every other one is what the run has solved for its verdict."""
 
 import math
@@ -39,8 +39,8 @@ from comparisons.models.level import Solution
 from comparisons.models.model import Model
 from comparisons.models.smooth import closed_form
 
-RUNGS = "rungs"  # series: what each rung took
-# Statements: the cheapest rung that holds; why none does; the next one to try.
+RUNGS = "rungs"  # series: what each model took
+# Statements: the cheapest model that holds; why none does; the next one to try.
 SUFFICES, NONE, ESCALATE_TO = "suffices", "none", "escalate to"
 NOTE = """Every model of this run against the whole one, from the cheapest on: the error in the
 figure that decides, nearest to its tolerance or farthest beyond, with its uncertainty. A model
@@ -103,7 +103,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 
 
 def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Tasks) -> list[Rung]:
-    """Every model, from the cheapest to the whole. The tasks solve what only the ladder asks for:
+    """Every model, from the cheapest to the whole one. Tasks solve what only the ladder asks for:
     half-planes with some of the effects, where nothing cheaper holds, and the same effects in
     finite elements are not refuted."""
     rung, effects = partial(_rung, solved, budget), budget.selection.whole
@@ -246,7 +246,7 @@ def _statements(rungs: Sequence[Rung], flows: str) -> list[Statement]:
 
 
 def may_suffice(errors: Iterable[Figure]) -> bool:
-    """Whether no error of a rung fails, or is less certain than its tolerance."""
+    """Whether no error of a model fails, or is less certain than its tolerance."""
     return all(e.verdict != "fails" and e.total <= e.tolerance for e in errors)
 
 
@@ -281,7 +281,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 
 def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
-    """Each rung's row of the series, its name in words, and its errors."""
+    """Each model's row of the series, its name in words, and its errors."""
     table, known = run.findings[LADDER].table(RUNGS), run.figures.of(study=LADDER)
     rows = [] if table is None else table.rows()
     return [(row, row["model"], known.of(source=row["rung"], against=WHOLE)) for row in rows]

@@ -9,7 +9,7 @@ c normal-tangential coupling, 0 none:
     finite deformation of a body that flows    F(W) - F(W - k)
     interaction            F(W) - F(0) - the sum of these
 
-These add up to the whole, F(W) - F(0), in any order: an effect without a solution by itself counts
+These add up to F(W) - F(0), in any order: an effect without a solution by itself counts
 in the interaction. The scene's own finite elements do not contain F(W) - F(scene)."""
 
 from dataclasses import dataclass, replace
@@ -40,11 +40,11 @@ class SplitVariants:
     of_scene: Model | None  # that stands for the scene's own finite elements, None: these
     nothing: Model  # without any effect
     pairs: dict[str, tuple[Model, Model]]  # by effect, with and without it
-    # the whole with other laws of elasticity, by place in the selection's, and probe
+    # whole models with other laws of elasticity, by index in the selection's, and probe
     laws: dict[tuple[int, str], Model]
-    # the whole at small strains, where increments are the same as at finite ones, by longer
+    # whole models at small strains, where increments are the same as at finite ones, by longer
     # increments of flow, the longest first, and by its own; none where the scene's own finite
-    # elements flow, or the whole does not
+    # elements flow, or the whole model does not
     increments: tuple[Model, ...]
 
     @property
@@ -60,7 +60,7 @@ class SplitVariants:
 
     @property
     def all(self) -> tuple[Model, ...]:
-        """Each once, the whole first."""
+        """Each once, the whole model first."""
         of_pairs = (variant for pair in self.pairs.values() for variant in pair)
         return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
 

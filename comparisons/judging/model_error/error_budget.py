@@ -4,8 +4,8 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 
 1. The effects beside the scene's own finite elements, where every judged figure agrees or differs
    by the first comparison already, even if these change it by the sum of all their estimates.
-2. The whole's third level, where every judged figure holds, fails, or remains inconclusive by what
-   is not modelled, wherever in its uncertainty on the second level the error comes to lie.
+2. The whole model's third level, where every judged figure holds, fails, or remains inconclusive by
+   what is not modelled, wherever in its uncertainty on the second level the error comes to lie.
 
 The model error and its uncertainty are stated for every figure in any case."""
 
@@ -102,7 +102,7 @@ def _unsplit(row: Figure) -> Figure:
 
 def _idle_flow(budget: ErrorBudget, tolerances: Mapping[str, float]) -> Sizes | None:
     """Change by flow, alone and with the other effects, where it moves no judged figure by a share
-    of its tolerance that matters: the whole is then one that does not flow. Nothing where the
+    of its tolerance that matters: the whole model then does not flow. Nothing where the
     wholes have no plastic strain; else None."""
     if all(level.plastic_strain == 0.0 for level in budget.wholes):
         return {}
@@ -173,7 +173,7 @@ def _is_decided(rows: tuple[Figure, ...], selection: EffectSelection) -> bool:
 
 
 def _given_up(effects: EffectRefinement) -> frozenset[str]:
-    """The added effects to leave out where the whole has no solution: those that have none by
+    """The added effects to leave out where the whole model has no solution: those that have none by
     themselves, else finite deformation, else all."""
     failed, added = {variant for variant, _ in effects.failed}, effects.selection.added
     pairs = [pair for split in effects.splits for pair in split.pairs.items()]

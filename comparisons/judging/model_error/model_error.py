@@ -1,11 +1,11 @@
 """The half-plane's model error: its error beyond the numerical ones, split into effects.
 
-All is relative to the whole, the finite elements with every effect that matters, so that the error
-is the same whether an effect is added here or switched on in the scene. The whole is the scene's
-own finite elements on their finest level, and what these do not contain of it on the level of the
-effects. A largest value is followed asperity by asperity, and the whole's is the largest of these
-in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
-value at another one, what lies between the two is the jump, no effect."""
+All is relative to the whole model, the finite elements with every effect that matters, so that the
+error is the same whether an effect is added here or switched on in the scene. It is the scene's own
+finite elements on their finest level, and what these do not contain of it on the level of the
+effects. A largest value is followed asperity by asperity, and the whole model's is the largest of
+these in the end: an effect is what changes at that asperity. Where the half-plane has its own
+largest value at another one, what lies between the two is the jump, no effect."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -60,7 +60,7 @@ class Solutions:
     split: SplitVariants  # what is solved
     laws: tuple[OpenLaw, ...] = ()  # of elasticity, that are not known
     # by variant, the solutions on each level, coarse to fine, with None for the scene's own finite
-    # elements: of the wholes alone on the levels beyond `levels_split`; of the checks on the first
+    # elements: of whole models alone on the levels beyond `levels_split`; of checks on the first
     history: tuple[Mapping[Model | None, QuantitiesOfInterest], ...] = ()
     levels_split: int = 0  # on which the effects are solved one by one
     unsplit: str | None = None  # why there is no such level
@@ -94,7 +94,7 @@ class Solutions:
 
     @cached_property
     def missing(self) -> list[QuantitiesOfInterest]:
-        """Part of the wholes that the scene's own finite elements lack."""
+        """Part of the whole models that the scene's own finite elements lack."""
         return list(map(sub, self.wholes, self.solved(self.split.of_scene)))
 
     @cached_property
@@ -119,7 +119,7 @@ class Solutions:
 
     @cached_property
     def longer(self) -> list[QuantitiesOfInterest] | None:
-        """The whole, at small strains, on the coarsest level by longer increments of flow, and by
+        """Whole model, at small strains, on the coarsest level by longer increments of flow, and by
         its own; empty: they have no solution; None: there is nothing to check."""
         asked = self.split.increments
         found = [self.history[0][variant] for variant in asked if variant in self.history[0]]
@@ -152,7 +152,7 @@ class Solutions:
             sequence = [level.figures[name][at] / scale for level in self.of_scene]
             refined = grid_convergence(sequence, self._order(name))
             numerical = max(numerical, self.unsolved + refined.uncertainty)
-        if self.longer is not None:  # the half-plane on its finest level, the whole on another
+        if self.longer is not None:  # the half-plane on its finest level, that on another
             stated = judged(self.case.runs["half_plane"], self.case.problem)[name]
             numerical += stated.numerical * self._scale(half_plane, name) / scale
         if name in LARGEST:
@@ -176,7 +176,7 @@ class Solutions:
             yield self._figure(name, *self._estimate(name, apart, at), lacking)
 
     def of_exact(self, exact: Mapping[str, float] | None = None) -> Iterator[Figure]:
-        """Errors of figures [SI] that have no numerical error; by default of the whole itself: what
+        """Errors of figures [SI] that have no numerical error; by default of the whole model: what
         is not known of it."""
         stated = judged(self.case.runs["finite_element"], self.case.problem)
         for name, own in self.of_scene[-1].largest().items():
@@ -186,11 +186,11 @@ class Solutions:
             yield self._figure(name, error, numerical, self._lacking(name))
 
     def _figure(self, name: str, error: float, numerical: float, lacking: float) -> Figure:
-        """A model against the whole: (model - whole) / whole.
+        """A model against the whole one: (model - whole) / whole.
 
         numerical  uncertainty of the model's difference from the scene's own finite elements, or of
-                   finite elements with other effects from the whole
-        lacking    of what is between these and the whole, all relative to this"""
+                   finite elements with other effects from the whole model
+        lacking    of what is between these and the whole model, all relative to it"""
         at = self.whole.leading(name)
         (figure, scale), before = self._size(name, at), self.whole.figures[name][at]
         ratio = error + figure / scale
@@ -217,7 +217,7 @@ class Solutions:
         )
 
     def _spread(self, name: str, at: int) -> LawSpread:
-        """Spread by the whole's law of elasticity, from the others that it has solutions with."""
+        """Spread by the whole model's law of elasticity, from its solutions with the others."""
         first, laws, whole = self.history[0], self.split.laws, self.wholes[0]
         if not self.laws or not first.keys() >= set(laws.values()):
             return LawSpread()
@@ -227,8 +227,8 @@ class Solutions:
         return law_spread(self.laws, changes)
 
     def _size(self, name: str, at: int) -> tuple[float, float]:
-        """The whole's figure by the middle of what its law of elasticity may be, and what errors
-        are relative to [SI]."""
+        """The whole model's figure by the middle of what its law of elasticity may be, and what
+        errors are relative to [SI]."""
         figure = self.whole.figures[name][at]
         figure += self._spread(name, at).middle * self._scale(figure, name)
         return figure, self._scale(figure, name)
@@ -244,7 +244,7 @@ class Solutions:
 
     def _estimate(self, name: str, changes: Sequence[float], at: int) -> tuple[float, float]:
         """The relative size, with its uncertainty, of changes [SI], one a level, at an asperity."""
-        # by one scale: a place may jump to the surface on one level alone
+        # by one scale: a largest value may jump to the surface on one level alone
         scale = self._size(name, at)[1]
         values = [float(change / scale) for change in changes]
         if not any(values):
@@ -273,7 +273,7 @@ class Solutions:
         return Part(effect, size, unsure, bool(certain > moved[np.argmax(before)]))
 
     def _lacking(self, name: str) -> float:
-        """Uncertainty of what the whole has beside the scene's own finite elements, relative."""
+        """Uncertainty of what the whole model has beside the scene's elements, relative."""
         at = self.whole.leading(name)
         return self._missing(name, at) + self._increments(name, at)
 
@@ -313,8 +313,8 @@ class Solutions:
     def _jump(
         self, name: str, numerical: float, at: int
     ) -> tuple[float, tuple[float, float] | None]:
-        """Excess of the half-plane's largest value over its value at the whole's asperity; x [m]
-        of its largest value and of the whole's, where these are no twin peaks, else None."""
+        """Excess of the half-plane's largest value over its value at the whole model's asperity;
+        x [m] of its largest value and of the whole model's, unless these are twin peaks: None."""
         before = self.half_plane.leading(name)
         if before == at:
             return 0.0, None

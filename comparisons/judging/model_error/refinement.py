@@ -43,16 +43,16 @@ class ErrorBudget:
     """Differences between the half-plane, the whole model and the surface."""
 
     selection: EffectSelection  # which effects were computed
-    levels: int  # that the whole was taken to; 0 where it has no solution
+    levels: int  # that the whole model was taken to; 0 where it has no solution
     unsplit: str | None  # why the difference of the models could not be split, else None
     # of each quantity at each friction coefficient, without what is not modelled
     model_errors: tuple[Figure, ...]
     # of each case, the finite elements with every effect that matters, on the finest level of the
     # effects, with their fields
     wholes: tuple[Level, ...] = ()
-    # which further level of the whole cannot change a verdict, else None
+    # which further level of the whole model cannot change a verdict, else None
     left_out: str | None = None
-    # of each case, what else is compared with the whole; empty where it has no solution
+    # of each case, what else is compared with the whole model; empty where it has no solution
     solutions: tuple[Solutions, ...] = ()
     # by variant: seconds, and the largest memory [bytes]
     took: dict[Model, tuple[float, int]] = field(default_factory=dict)
@@ -69,8 +69,8 @@ class ErrorBudget:
 
 class EffectRefinement:
     """Quantities of interest of the model variants that a selection of effects takes, level by
-    level. The split stays on the least levels, unless the whole and the scene's own finite elements
-    are all that it takes."""
+    level. The split stays on the least levels, unless the whole model and the scene's own finite
+    elements are all that it takes."""
 
     def __init__(
         self, scene: Solved, tasks: Tasks, selection: EffectSelection, rows: Iterable[Figure] = ()
@@ -112,8 +112,8 @@ class EffectRefinement:
     def announce_all(
         self, splitting: int, levels: int = LEAST_LEVELS, further: int = LATER
     ) -> None:
-        """Make the variants known to the tasks: on so many levels the wholes, which others need, on
-        the least ones and as urgent as `splitting` what splits them, too."""
+        """Make the variants known to the tasks: on so many levels whole models, which others need,
+        on the least ones and as urgent as `splitting` what splits them, too."""
         for split in self.splits:
             self.announce(split.checks, 1, splitting)
         for number in range(1, levels + 1):
@@ -166,7 +166,7 @@ class EffectRefinement:
         return math.fsum([*spent, *own])
 
     def finer(self, number: int) -> float:
-        """Seconds that the level of the wholes after this one takes at most."""
+        """Seconds that the level of the whole models after this one takes at most."""
         known = (self.expected.get((variant, number), 0.0) for variant in self.wholes)
         return GROWTH_OF_TIME * math.fsum(known)
 
@@ -189,8 +189,8 @@ class EffectRefinement:
         )
 
     def _solve_wholes(self, most: int) -> tuple[int, str | None]:
-        """Solve as many levels of the wholes as it takes: how many, and which further one is left
-        out, as it cannot change a verdict."""
+        """Solve as many levels of the whole models as it takes: how many, and which further one is
+        left out, as it cannot change a verdict."""
         for number in range(1, min(most, LEAST_LEVELS) + 1):
             self._solve_whole(number)
         if most >= LEAST_LEVELS:

@@ -75,7 +75,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 def error_table(run: Run, brief: bool = False) -> TextTable:
     """The half-plane's figures, the whole model's and the errors; below a name what the error is
-    made of, what is not modelled of it, and where the whole has its largest value if not at the
+    made of, what is not modelled of it, and where that has its largest value if not at the
     half-plane's asperity.
 
     brief  for a terminal: what is judged, and beside it most of what makes it up"""

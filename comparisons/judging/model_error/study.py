@@ -67,8 +67,8 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
     half-plane select other effects, these are solved then.
 
     Call what is returned once the scene's own finite elements leave a figure open on the least
-    levels. The whole will leave it open, too: its further level need not wait, and a process stays
-    with the bodies of one level."""
+    levels. The whole model will leave it open, too: its further level need not wait, and a process
+    stays with the bodies of one level."""
     selection = effects_of_run(solved, tasks)
     effects = EffectRefinement(solved, tasks, selection)
     most = effects.most_levels

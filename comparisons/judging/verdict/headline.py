@@ -5,7 +5,7 @@ In: the figures of a run. Out: what terminal, page, JUnit and result.json say al
 What stands first is how far the half-plane is right: the least tolerance at which every judged
 figure holds, the largest `Figure.reach` of the judged model errors. What else may move one of them
 belongs into its uncertainty or its estimates, where the verdict sees it, too; what leaves all of
-them unknown is said in its place."""
+them unknown is said instead."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -244,8 +244,8 @@ def _other(run: Run, within: Within, error: Figure, words: str) -> str:
 
 
 def _law_leaned_on(run: Run) -> str:
-    """For the end of a sentence: the law of elasticity that the whole has, or that none changes the
-    verdict; nothing where the whole deforms little."""
+    """For the end of a sentence: the whole model's law of elasticity, or that none changes the
+    verdict; nothing where it deforms little."""
     selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
     if "finite_strain" not in selection.whole or FLOW in selection.whole:  # that has Hencky's
         return ""

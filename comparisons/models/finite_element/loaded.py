@@ -106,7 +106,7 @@ def pressed_plastically(
     it flows, pressures are means over neighbouring hats.
 
     travel  hats that an edge of the contact may move in one increment of the load
-    reached called after each increment with its load over the whole
+    reached called after each increment with its load over the full one
 
     Raises FemError where a load is not reached, and where contact spreads to the grid's ends."""
     scene, grid, operator = contact.problem.scene, contact.grid, contact.operator
@@ -235,7 +235,7 @@ def _of_linear(contact: SmallStrainContact) -> dict[str, int]:
 
 
 def _borne(pressed: LoadedBody, nodal: NodalStress, largest: np.ndarray) -> np.ndarray:
-    """Largest shears with their places (3, k) [Pa], [m], no larger than what a metal bears there:
+    """Largest shears with x and z (3, k) [Pa], [m], no larger than what a metal bears there:
     between nodes on the yield surface a recovered field may be beyond it."""
     if pressed.bearable is None:
         return largest

@@ -67,7 +67,7 @@ def set_off(text: str) -> "Markup":
 
 
 def slug(text: str) -> str:
-    """The first words of a text as a name for files and places."""
+    """The first words of a text as a name for files and anchors."""
     return "-".join(re.findall(r"\w+", text.lower())[:WORDS])
 
 

@@ -50,8 +50,8 @@ PICTURES: dict[str, Callable[[Run], object]] = {
     "overview": answer.overview_picture,
     "judged": answer.judged_picture,
 } | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
-# Sections that have their place, by id; those of other studies follow the stresses. Those from the
-# problem on are for who checks the answer: folded away on a screen, and printed.
+# Sections with a fixed order, by id; those of other studies follow the stresses. Those from the
+# problem on are for reviewers: folded away on a screen, and printed.
 ORDER = ("model-error", "comparison", "answers", "contact", "stresses", "", "yield")
 FOLDED = ("problem", "convergence", "mesh", "cost", "checks", "skipped", "record")
 NOTES = verification.WORDING["how_to_read"]
@@ -79,7 +79,7 @@ def _shown(block: Block, run: Run, pictures: Mapping[str, object]) -> Block:
 
 
 def _filled(items: Iterable, run: Run, pictures: Mapping[str, object]) -> Iterator[object]:
-    """The items with pictures in the place of their names, and with what functions among them give,
+    """The items with pictures for their names, and with what functions among them give,
     without boxes that stay empty."""
     for item in items:
         if isinstance(item, Pictures):

@@ -66,7 +66,7 @@ def forms(node: Mapping, root: Mapping) -> list[Mapping]:
 
 
 def node_at(place: Sequence[str | int], root: Mapping) -> Mapping | None:
-    """The part of a schema for a place in the tables of a scene; None where there is none."""
+    """The part of a schema for a path into the tables of a scene; None where there is none."""
     node: Mapping | None = root
     for part in place:
         inside = (_inside(form, part) for form in forms(node or {}, root))

@@ -47,7 +47,7 @@ class Answer:
         return float(np.median(steps[inside] if inside.any() else steps))
 
     def on(self, x: np.ndarray) -> np.ndarray:
-        """Pressures [Pa] at places x [m], zero where nothing touches."""
+        """Pressures [Pa] at x [m], zero where nothing touches."""
         pressure = np.where(self.touching, self.pressure, 0.0)
         return np.interp(x, self.x, pressure, left=0.0, right=0.0)
 

@@ -57,7 +57,7 @@ def finite_element_heat(
 def solved_heat(
     problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
 ) -> tuple[HeatedContact, Callable[[np.ndarray], np.ndarray]]:
-    """`finite_element_heat`, and the rough body's temperature (k,) [K] of places (k, 2) [m] by its
+    """`finite_element_heat`, and the rough body's temperature (k,) [K] at points (k, 2) [m] by its
     shape functions; beyond its mesh a moving half-plane has a line source's, a layer its end's."""
     x, heat, pitch = level.grid.x, heat_of_friction(problem, level), level.grid.pitch
     x = np.concatenate([[x[0] - pitch], x, [x[-1] + pitch]])

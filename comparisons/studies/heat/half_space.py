@@ -2,7 +2,7 @@
 
 The contact stays where it is, the surfaces pass it; the pressure is that of one moment and taken as
 steady. That is exact where the contact stays on the rough body (slide-to-roll ratio -2). Else
-asperities move with the body: each heats it for longer than here, the roller in many places.
+asperities move with the body: each heats it for longer than here, the roller at many points.
 Stresses are steady and elastic, of a body that the bulk temperature leaves without any."""
 
 from collections.abc import Callable, Iterator
@@ -40,7 +40,7 @@ HEATED, WITHOUT = ("tau1_heated", "tau1_depth_heated", "sx_heated"), "_without_h
 # Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
 # what is left of the disc farther off is a narrow lens.
 FARTHEST = 1.2
-# How far off the surface's largest sx is looked for, over the farthest contact; places on a side
+# How far off the surface's largest sx is looked for, over the farthest contact; points on a side
 SEEN, PLACES = 20.0, 60
 
 

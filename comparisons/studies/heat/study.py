@@ -221,7 +221,7 @@ def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, floa
 def _subsurface(
     problem: Problem, contact: HeatedContact
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places, depths and rises in both half-spaces, half as far again as the grid: a picture."""
+    """Points x, depths and rises in both half-spaces, half as far again as the grid: a picture."""
     pitch, half_width = float(contact.x[1] - contact.x[0]), problem.hertz.half_width
     beside = len(contact.x) // 4
     into_bodies = contact.into_body, contact.heat - contact.into_body

@@ -85,7 +85,7 @@ def _to_scale(axes: "Axes", problem: Problem) -> None:
 
 
 def _words(axes: "Axes", problem: Problem, sizes: tuple[float, float, float], roomy: bool) -> float:
-    """Load, roller, body and traction in words; the lowest place that is to be seen.
+    """Load, roller, body and traction in words; the lowest z that is to be seen.
 
     sizes  half the view's width, half the body's, and its depth
     roomy  words of the body stand in it, where it is large; else under it"""
