@@ -41,7 +41,7 @@ from comparisons.output.page import page
 from comparisons.output.page.page import PICTURES
 from comparisons.runs.run import record_of
 from comparisons.studies import STUDIES
-from meshes.block import BlockMesh, BlockSpec
+from meshes.block import BlockMesh, structured
 
 # What fails on a page fails its test; those of what a failure costs say so.
 page.attempted = lambda what, make: make()
@@ -53,25 +53,9 @@ SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
 
 
 def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
-    """Second-order triangles on a square block, finer towards the middle of its top."""
-    reach = 40.0 * problem.hertz.half_width
-    line = reach * np.linspace(-1.0, 1.0, cells + 1) ** 3
-    x, z = (g.ravel() for g in np.meshgrid(line, line[cells // 2 :], indexing="ij"))
-    rows = cells // 2 + 1
-    corner = (np.arange(cells)[:, None] * rows + np.arange(rows - 1)).ravel()
-    corners = np.concatenate(
-        [
-            np.column_stack([corner, corner + rows, corner + rows + 1]),
-            np.column_stack([corner, corner + rows + 1, corner + 1]),
-        ]
-    )
-    edges = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    edges, middle = np.unique(edges, axis=0, return_inverse=True)
-    vertices = np.column_stack([x, z])
-    points = np.concatenate([vertices, vertices[edges].mean(axis=1)])
-    triangles = np.column_stack([corners, len(vertices) + middle.reshape(-1, 3)])
-    spec = BlockSpec(reach, reach, np.array([[-reach / 8, reach / 8]]), float(line[1] - line[0]))
-    return BlockMesh(points, triangles, np.zeros_like(points), spec)
+    """A square block, finer towards the middle of its top."""
+    line = 40.0 * problem.hertz.half_width * np.linspace(-1.0, 1.0, cells + 1) ** 3
+    return structured(line, line[cells // 2 :])
 
 
 def stress_of(problem: Problem, modulus: float, window: Window, friction: float) -> StressResult:
