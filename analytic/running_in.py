@@ -1,6 +1,6 @@
 """Running-in: a roller pressed on at position after position until no asperity flows any more.
 
-At each position the contact is solved with the pressure capped at the hardness. Where the cap
+At each position the contact is solved with the pressure at most the hardness. Where that
 holds, the surfaces would still overlap; plastic flow takes the overlap off the profile, so that
 the same load at the same position is carried elastically from then on. Sweeps over all positions
 follow each other until one moves next to nothing: the profile has settled. What flows is lost:

@@ -1,4 +1,4 @@
-"""The laws of cost beside what levels of finite elements take, over all scenes that come along.
+"""The laws of cost beside what levels of finite elements take, over all shipped scenes.
 
     python -m tests.cost_laws [SCENE ...] [--levels N]
 
@@ -40,7 +40,7 @@ class LevelCost(NamedTuple):
 
 
 def level_cost(name: str, number: int) -> LevelCost:
-    """Solve the finite elements' level `number` of a scene that comes along."""
+    """Solve the finite elements' level `number` of a shipped scene."""
     from comparisons.common.progress import Stages, peak_memory
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns

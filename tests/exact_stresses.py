@@ -110,7 +110,7 @@ def wave_stress(
 def hat_displacement(offset: ArrayLike) -> np.ndarray:
     """L_h of `analytic.operators.elements` at `offset` [pitches], any shape.
 
-    int_{-1}^{1} (1-|s|) ln|x-s| ds, the displacement under a hat at one place.
+    int_{-1}^{1} (1-|s|) ln|x-s| ds, the displacement under a hat at one x.
     """
     x, order = np.abs(np.asarray(offset, dtype=float))[..., None], 2.0 * np.arange(1, 49)
     apart, unit = np.maximum(x, 1.5), x + 1.0

@@ -15,7 +15,7 @@ from scipy.special import k0e, k1e
 
 
 def band_surface(x: ArrayLike, peclet: float) -> np.ndarray:
-    """k T / (q l) at places x [l]; peclet = V l / (2 kappa) > 0."""
+    """k T / (q l) at x [l]; peclet = V l / (2 kappa) > 0."""
     place = np.asarray(x, dtype=float)
     front, rear = peclet * (place + 1.0), peclet * (place - 1.0)
     ahead = rear > 0.0  # both terms near 1 there: the difference of what they lack

@@ -79,7 +79,7 @@ def press_finitely(
 
     load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
                z = 0, positive into the body
-    hardness   H [Pa], cap on `pressure`
+    hardness   H [Pa], largest `pressure`
 
     Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
     Raises FemError if it does not converge, ValueError for a load that the hats cannot bear.

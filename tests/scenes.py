@@ -31,7 +31,7 @@ STEEL_HEAT = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
 # Of a [heat] section whose two bodies conduct alike.
 BOTH_CONDUCT = {f"{b}_{name}": v for b in ("body", "roller") for name, v in STEEL_HEAT.items()}
 RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
-# The same of a known law of elasticity: the whole is solved with no other.
+# A known law of elasticity: the whole model is solved with no other.
 NEO_HOOKEAN = {"law": "neo-hookean"}
 KNOWN_STEEL, KNOWN_RUBBER = STEEL | NEO_HOOKEAN, RUBBER | NEO_HOOKEAN
 SMOOTH = {

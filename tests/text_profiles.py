@@ -7,7 +7,7 @@ from analytic.surface.readers.dropouts import MeasuredProfile
 from analytic.surface.readers.files import open_measured, profile_of
 from analytic.surface.readers.text import read_table
 
-# What `ground_texture` makes the ground profiles that come along of, without a run.
+# Arguments by which `ground_texture` makes the shipped ground profiles, without a run.
 GROUND = {
     "rms_height": 0.4608e-6, "samples": 2237, "length": 2236e-6, "seed": 1,
     "roll_off_wavelength": 80e-6, "shortest_wavelength": 10e-6, "longest_wavelength": 250e-6,

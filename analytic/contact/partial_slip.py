@@ -6,7 +6,7 @@ next the roller slips over the body by
     s = d - A (q - q0) - T'(p - p0) - (e - e0) x,    q = mu p where s > 0,  q = -mu p where s < 0
 
 and sticks, s = 0, where q is between (0: before the step). With r = mu p - q that is the contact
-problem of `analytic.contact.problem`, each node with a cap of its own,
+problem of `analytic.contact.problem`, each node with a hardness of its own,
 
     s >= 0 at r = 0,    s = 0 at 0 < r < 2 mu p,    s <= 0 at r = 2 mu p,    w'r = mu P - Q,
 
@@ -58,7 +58,7 @@ class SurfacePair:
     weights: np.ndarray  # w (n,) [m]
     x: np.ndarray  # (n,) [m]
     friction: float
-    hardness: float  # cap of the pressure [Pa]
+    hardness: float  # largest pressure [Pa]
     tangential: Vectors  # A
     solve_normal: Solve
     solve_tangential: Solve
@@ -177,7 +177,7 @@ def half_planes(
 
     weighted_gap  G (n,) [m^2]            modulus   E* [Pa]
     dundurs_beta  of the body against the roller (`analytic.material.dundurs_constants`)
-    hardness      cap of the pressure [Pa]"""
+    hardness      largest pressure [Pa]"""
     operator = HalfPlane(grid.count, grid.pitch, modulus)
     solve = partial(solve_contact, operator)
     raised = dragged = None

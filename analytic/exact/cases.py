@@ -48,7 +48,7 @@ class ExactContact:
     friction: float = 0.0  # of the traction; it also shifts the pressure where `coupled`
     knots: tuple[float, ...] = ()  # x [m] where g0 is not smooth
     period: float | None = None  # [m] of pressure and gap, or None
-    hardness: float = np.inf  # cap on the pressure [Pa]
+    hardness: float = np.inf  # largest pressure [Pa]
 
     @property
     def combined_modulus(self) -> float:

@@ -1,4 +1,4 @@
-"""A smooth cylinder on a half-plane whose pressure a hardness caps: the crown that flow removes.
+"""A smooth cylinder on a half-plane whose pressure ends at a hardness: the crown that flow removes.
 
     P   load per length [N/m]     R   radius [m]      b   contact on |x| < b [m]
     H   hardness [Pa]             E*  modulus [Pa]    c   flowed stretch on |x| < c [m]

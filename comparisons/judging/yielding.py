@@ -207,7 +207,7 @@ def flow_assessment(solved: Solved) -> FlowAssessment:
 
 
 def _figures(case: Case, yield_stress: float | None, hardness: float | None) -> Iterator[Figure]:
-    """The largest stresses of an elastic body (with the cap of the scene's hardness, if any), by
+    """The largest stresses of an elastic body (held at the scene's hardness, if any), by
     the peak pressure where there is no field; over those of first flow by Tresca, in the plane, and
     by von Mises; and the contact at the hardness or above."""
     problem, friction = case.problem, case.friction

@@ -2,7 +2,7 @@
 
 A model is the half-plane and the effects that it has beside: the LAYERS and the coupling of
 `comparisons.models.operators`, an exact circle (`exact_circle`), the deformed surface
-(`finite_strain`), a CAP on the pressure. Nothing is meshed: the compliance of a layer or a coating
+(`finite_strain`), a hardness (CAP). Nothing is meshed: the compliance of a layer or a coating
 is a convolution, and its stresses are those of a half-plane and what the base adds
 (`analytic.layers.stress`)."""
 

@@ -36,7 +36,7 @@ RESIDUAL = 1e-9
 MOST_ITERATIONS = 30
 # A step is bisected if it multiplies the residual by more or inverts an element.
 GROWTH = 10.0
-# A cap that has moved changes many hats' states at once: up to this residual, all may.
+# A hardness that has moved changes many hats' states at once: up to this residual, all may.
 CAPPED_RESIDUAL = 0.1
 MOST_BISECTIONS = 6
 LEAST_INCREMENT = 1e-3  # as a part of the way from the start to the load
@@ -344,7 +344,7 @@ def solve_nonlinear_contact(
     start      an equilibrium, or for bodies at rest (load 0) a guess of the solution: for linear
                bodies only the support of its pressure matters, others need the linear solution.
                Held components keep its displacements, in proportion to the load
-    hardness   H [Pa], cap on the pressure, of all hats or (count,) of each
+    hardness   H [Pa], largest pressure, of all hats or (count,) of each
     begin      guess of the solution under a part of the load, for bodies at rest that `start` in
                proportion does not lead on
 

@@ -41,9 +41,9 @@ SECANTS, SECANT_RANK = 10, 0.05
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
-MOST_CAPS = 15  # solutions until the cap on the pressure settles
+MOST_CAPS = 15  # solutions until the largest pressure settles
 LEANING = 5e-8  # of the load: what friction on tilted tangents may still take of it
-CAP_LEFT = 1e-8  # of a cap on the pressure that the last solution's stretch would change
+CAP_LEFT = 1e-8  # of the largest pressure that the last solution's stretch would change
 
 
 @dataclass
@@ -179,7 +179,7 @@ class FiniteContact:
         else:
             if np.isfinite(hardness):
                 raise FemError(f"the cap on the pressure did not settle in {MOST_CAPS} solutions")
-        # what the last solution's stretch changes of a cap is none of its residual
+        # what the last solution's stretch changes of these is none of its residual
         return self.deformed(
             replace(solution, state=replace(solution.state, pressure=state.pressure))
         )

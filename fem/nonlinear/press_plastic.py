@@ -256,7 +256,7 @@ class LoadHistory:
     def _elastically(self, target: float) -> int:
         """Elastic contacts that lead towards a load [N/m] as far as nothing flows: the way there
         does not matter. Loads at which stresses, which grow with the root of the first load or
-        faster, flow beyond doubt are not tried."""
+        faster, surely flow are not tried."""
         contacts, first, reached, flows, part = 0, self.state.load, 0.0, 1.0, 1.0
         surely = np.inf
         while flows > LEAST_INCREMENT and reached < ELASTIC_WITHIN * flows:

@@ -204,7 +204,7 @@ class TestRefinement:
         assert np.all(worn.lowering >= 0.0)
 
     def test_samples_need_not_be_even(self):
-        """Samples anywhere, hats from the same places: the same surface runs in the same way."""
+        """Samples anywhere, hats from the same x: the same surface runs in the same way."""
         generator = np.random.default_rng(3)
         fine = sinusoid(
             wavelength=0.2 * A, amplitude=0.15e-6, length=6.0 * A, samples_per_wavelength=256
@@ -286,7 +286,7 @@ def test_what_makes_no_sense_is_refused(change, message):
 
 
 class TestGroundSurface:
-    """The recipe that the run-in surface that comes along was made by, with other elements."""
+    """The recipe that the shipped run-in surface was made by, with other elements."""
 
     PLACES = (500, 600, 700, 800, 900, 1000, 1300, 1400, 1500, 1600, 1736, 1200, 1060, 1118)
     PAIR = hertz_from_load(3.55e6, 7.570598e-3, 115.385e9)
@@ -323,7 +323,7 @@ class TestGroundSurface:
         )
 
     def contact(self, profile: Profile, pitch: float) -> tuple[float, float]:
-        """Contact ratio by touching nodes, and peak pressure over p0, at the last place."""
+        """Contact ratio by touching nodes, and peak pressure over p0, at the last position."""
         pair = self.PAIR
         grid, solution = pressed(profile, 1118e-6, pitch, pair)
         patches = contact_patches(grid.x, solution.pressure, solution.gap)

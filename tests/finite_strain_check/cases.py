@@ -1,6 +1,6 @@
 """The scenes of the check, their solution by these finite elements, and what is kept of it.
 
-Nobody has tuned the project on them: pieces of the traces that come along, places and loads taken
+Nobody has tuned the project on them: pieces of the shipped traces, positions and loads taken
 at once. `values.json` holds their figures, from meshes down to 1/16 um under the asperities,
 and of `ground-unrun` with friction, down to 1/4 um.
 """

@@ -5,7 +5,7 @@ a force per undeformed length of x. Where it acts, the mean of the gap over its 
 
     g = z_roller(x) - z,    integral N_i g dX = 0 where lambda_i > 0, >= 0 elsewhere
 
-x, z being current places. The force is lambda (-dg) + mu lambda (1, z_roller') towards +x on the
+x, z being current. The force is lambda (-dg) + mu lambda (1, z_roller') towards +x on the
 rough body, so that lambda dX / dx is Cauchy's pressure and mu its friction. A primal-dual active
 set changes with every step of Newton's method (Laursen, Computational
 Contact and Impact Mechanics, ch. 5). Small strains: the same with x = X and all slopes zero.
@@ -50,7 +50,7 @@ def line_shapes(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @dataclass
 class State:
     """Displacements (n, 2) of the bodies, pressures at the surface's corners, those that are
-    active, those that are held at the cap, approach, and the roller's shift along x."""
+    active, those that are held at the hardness, approach, and the roller's shift along x."""
 
     moved: list[np.ndarray]
     pressure: np.ndarray
@@ -99,7 +99,7 @@ class SurfacePair:
 
     @cached_property
     def x(self) -> np.ndarray:
-        """Undeformed places (k + 1,) of the pressures."""
+        """Undeformed x (k + 1,) of the pressures."""
         return self.rough.mesh.nodes[[*self.edges[:, 0], self.edges[-1, 2]], 0]
 
     @cached_property
@@ -115,7 +115,7 @@ class SurfacePair:
         return State(moved, np.zeros(len(self.x)), inside, np.zeros_like(inside))
 
     def _now(self, body: int, state: State) -> np.ndarray:
-        """Places (n, 2) of a body's nodes; at small strains their x stays, and z starts at 0."""
+        """Points (n, 2) of a body's nodes; at small strains their x stays, and z starts at 0."""
         solid, moved = self.solids[body], state.moved[body]
         if self.gap is not None:
             return np.stack([solid.mesh.nodes[:, 0], moved[:, 1]], axis=1)
@@ -193,7 +193,7 @@ class SurfacePair:
         tangent = -(weight * pressure)[loaded, None, None] * _bent(*part, mu)
         numbers = t["numbers"]
         geometric = _summed(numbers[loaded], numbers[loaded], tangent, (count, count))
-        # unknown are pressures of active corners; others are zero, or at the cap
+        # unknown are pressures of active corners; others are zero, or at the hardness
         every = count, len(self.x)
         pushes, means = (
             _summed(numbers, corner, (weight[:, None] * by)[..., None] * hats[:, None], every)
@@ -307,7 +307,7 @@ def _bent(d, f, by_x, by_z, s, along, turned, mu):
     def product(a, b):
         return a[:, :, None] * b[:, None, :]
 
-    rolled = d / along  # the derivative of the place on the roller
+    rolled = d / along  # the derivative of the point on the roller
     normal = product(by_z - s * by_x, rolled) + product(d, turned)
     return normal + mu * (product(f, turned) - product(by_x + s * by_z, rolled))
 

@@ -83,7 +83,7 @@ def shears(pair: SurfacePair, state: State) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _vertex(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """Largest value of the parabola through three points, and its place."""
+    """Largest value of the parabola through three points, and its x."""
     c = np.polyfit(x - x[1], y, 2)
     at = -0.5 * c[1] / c[0]
     return float(np.polyval(c, at)), float(x[1] + at)

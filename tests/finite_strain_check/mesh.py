@@ -109,7 +109,7 @@ def interpolated(coarse: Triangles, fine: Triangles, values: np.ndarray) -> np.n
 
 
 def quadratic(r: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Shape functions (..., 6) at local places, in the order of `Triangles.elements`."""
+    """Shape functions (..., 6) at local points, in the order of `Triangles.elements`."""
     o = 1.0 - r - t
     parts = [o * (2 * o - 1), r * (2 * r - 1), t * (2 * t - 1), 4 * r * t, 4 * o * t, 4 * o * r]
     return np.stack(parts, axis=-1)

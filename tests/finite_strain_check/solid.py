@@ -35,7 +35,7 @@ class Solid:
     """A meshed body.
 
     mesh     its flat strip
-    places   (n, 2) undeformed places of the nodes, [um] where moduli are in GPa
+    places   (n, 2) undeformed nodes, [um] where moduli are in GPa
     held     (n,) nodes that do not move
     modulus  Young's modulus, ratio Poisson's: of all elements, or (m,) of each
     law      see above
@@ -127,7 +127,7 @@ class Solid:
 
     @cached_property
     def _pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Entries of element matrices that stay, their places in the matrix, and its structure."""
+        """Entries of element matrices that stay, their indices in the matrix, and its structure."""
         n = self.numbers[self.mesh.elements].reshape(-1, 12)
         row, column = (a.ravel() for a in np.broadcast_arrays(n[:, :, None], n[:, None, :]))
         stays = np.flatnonzero((row >= 0) & (column >= 0))

@@ -75,7 +75,7 @@ class Task:
         return self.law != "linear" and self.half_width > SMALL * self.radius
 
     def on_disc(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
-        """Places (n, 2) of a disc's nodes from those on the squares: maps that keep angles."""
+        """Points (n, 2) of a disc's nodes from those on the squares: maps that keep angles."""
         r = self.radius
         if self.support == OPPOSITE:
             plane = s + 1j * d
@@ -114,7 +114,7 @@ class Task:
         return tuple(np.where(coated, above, below) for above, below in pairs)
 
     def at_coating(self, place: np.ndarray) -> np.ndarray:
-        """The size (n,) that elements at places (n, 2) have, so that none crosses its lower side
+        """The size (n,) that elements at points (n, 2) have, so that none crosses its lower side
         within COATED half-widths of the middle."""
         if self.coating is None:
             return np.inf

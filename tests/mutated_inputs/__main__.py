@@ -2,7 +2,7 @@
 
     python -m tests.mutated_inputs
 
-Scenes that come along, and others that use every field, get one to three mistakes each: another
+Shipped scenes, and others that use every field, get one to three mistakes each: another
 value from a list of hostile ones, fields and sections that are lost, doubled, renamed or moved,
 bytes that are flipped, cut off or put in. Profiles of text and of numpy get the same, under scenes
 that read them in all ways. What is left is read, checked and resolved; some scenes are also solved

@@ -192,7 +192,7 @@ def mutated_profile(draw: random.Random, content: bytes) -> bytes:
             at = draw.randrange(len(lines))
             lines[at:at] = [lines[at] + draw.choice((b",", b";", b" 1", b"\t2", b"", b"#"))]
             content = b"\n".join(lines)
-        elif kind == 5:  # every height, or every place, scaled
+        elif kind == 5:  # every height, or every x, scaled
             power = draw.choice((b"e300", b"e-300", b"e150", b"e-20", b"e29", b"e31", b"e8"))
             content = re.sub(rb"(\d)(\r?\n)", rb"\1" + power + rb"\2", content)
         else:

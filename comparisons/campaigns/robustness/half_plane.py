@@ -116,7 +116,7 @@ def hardness_figures(over_peak: float) -> CaseFigures:
             relative_error("contact length", length, exact.contact, HIGHS[1], reference),
             flowed_figure(capped.pressure >= hardness, PITCH, exact.flowed),
         )
-    # the cap takes off `over_peak` of the peak, over a share of the contact: no more may change
+    # hardness takes `over_peak` off the peak, over a share of the contact: no more may change
     high = SAME if over_peak > 0.0 else max(SAME, 3.0 * abs(over_peak))
     reference = "the uncapped contact"
     return capped.figures(deviation(capped.pressure, plain.pressure, "pressure", high, reference))

@@ -253,11 +253,11 @@ def _layered_beta(problem: Problem) -> float:
     return estimate
 
 
-# Below first yield, p0 = 1.79 Y at a hardness of 2.8 Y to 3 Y, nothing flows; where the cap holds
+# Below first yield, p0 = 1.79 Y at a hardness of 2.8 Y to 3 Y, nothing flows; where it holds
 # the pressure, hardnesses from 2.4 Y to 3 Y fit what finite elements that flow do, none everywhere:
 # 2.4 Y at 3 to 4 times first yield, 2.8 Y at 6 to 12 times, 3 Y beyond.
 FIRST_FLOW, CAP = 0.6, 0.1
-# Without a cap, smooth bodies without hardening, at friction 0 and 0.2: from first flow on the peak
+# Without a hardness, smooth, no hardening, at friction 0 and 0.2: from first flow on the peak
 # pressure is too high by 0.9 of p/H - 0.6 at most, 33 % at p = H and 83 % at 1.5 H, the length too
 # small by half of that; stresses by up to 1.5 times as much, and by 6 % already where friction
 # makes the surface flow first. Their largest value moves to another depth.

@@ -99,7 +99,7 @@ def solutions(solved: Solved, held: Effects, tasks: Tasks) -> dict[float, Soluti
     keys = announce(solved, held, len(solved.runs["finite_element"].levels), tasks)
     try:
         levels = list(map(tasks.result, keys))
-    except ContactError:  # the cap takes a contact that the pressures' extent does not hold
+    except ContactError:  # with a hardness the contact needs more than the pressures' extent
         return None
     if not all(level.converged for of_pitch in levels for level in of_pitch.values()):
         return None

@@ -66,7 +66,7 @@ class Rung:
     words: str
     seconds: float
     memory: float  # [bytes] largest of the process that solved it; 0 of a closed form
-    figures: tuple[Figure, ...]  # (rung - whole) / whole
+    figures: tuple[Figure, ...]  # (model - whole model) / whole model
 
     @property
     def verdict(self) -> str:

@@ -212,7 +212,7 @@ def finite_contact(linear: SmallStrainContact) -> FiniteDeformation:
     large for that, by Newton's method. Raises FemError where that finds none either."""
     start, constraints = linear.solution.pressure, linear.constraints
     contact = _unpressed_contact(linear)
-    if np.isfinite(constraints.hardness):  # these factors know one cap for all pressures
+    if np.isfinite(constraints.hardness):  # these factors know one hardness for all hats
         return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
     bodies, load = FiniteCompliance(contact), constraints.load
 

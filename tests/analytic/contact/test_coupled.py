@@ -65,7 +65,7 @@ class TestSlidingCylinder:
     @pytest.mark.parametrize("friction_dundurs", [0.0, 0.25, 0.75])
     def test_orders_are_those_of_the_singular_edge(self, roller, friction_dundurs):
         """p goes as s^(1/2 - n) at the trailing edge, n = atan(mu beta)/pi. Hats follow any other
-        place with order 2, so the L2 order is that exponent and a half more; the peak is smooth.
+        x with order 2, so the L2 order is that exponent and a half more; the peak is smooth.
         """
         errors = [sliding_errors(roller, friction_dundurs, n) for n in (120, 480, 1920)]
         l2, peak, edge = (np.array(e) for e in zip(*errors, strict=True))

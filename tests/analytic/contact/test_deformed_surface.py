@@ -69,7 +69,7 @@ def linear_stress(strain: np.ndarray, lame: float) -> np.ndarray:
 def quadratic_stress(
     a: np.ndarray, b: np.ndarray, lame: float, third: tuple[float, float]
 ) -> np.ndarray:
-    """Cauchy's stress of second order in gradients at current places, F = 1 + g + g g: of
+    """Cauchy's stress of second order in gradients at current points, F = 1 + g + g g: of
     F S F' / J with Green's strain, bilinear in two waves."""
     ell, m = third
     strain, other = 0.5 * (a + turned(a)), 0.5 * (b + turned(b))

@@ -82,7 +82,7 @@ def surface(seed: int):
 
 
 def contact(seed: int, periodic: bool, hardness: bool = False) -> Contact:
-    """A load between a few touching crests and nearly full contact; a cap that cuts the peaks."""
+    """A load between a few touching crests and nearly full contact; a hardness below the peaks."""
     rng = np.random.default_rng([seed, 1])
     count = int(rng.integers(120, 400))
     grid = HatGrid(1.0 / count, -(count // 2), count - 1 - count // 2)
@@ -151,7 +151,7 @@ class TestUnits:
     @given(seed=seeds, factor=factors)
     @examples(15)
     def test_gap_and_load_together(self, periodic, seed, factor):
-        """Linear elasticity: heights, load and cap in proportion, pressures in proportion."""
+        """Linear elasticity: heights, load and hardness in proportion, pressures in proportion."""
         here = contact(seed, periodic)
         there = replace(here, gap=factor * here.gap).under(load=factor * here.constraints.load)
         assert_close(there.solved().pressure, factor * here.solved().pressure)

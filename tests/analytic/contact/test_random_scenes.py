@@ -134,7 +134,7 @@ SHAPES = (
 
 
 def scene(seed: int) -> Scene:
-    """A scene drawn from `seed`: shapes, units, amplitudes, loads, caps, both kinds of ends."""
+    """A scene drawn from `seed`: shapes, units, amplitudes, loads, hardness, both kinds of ends."""
     rng = np.random.default_rng([seed, 1991])
     count = int(np.exp(rng.uniform(np.log(8.0), np.log(2001.0))))
     periodic = bool(rng.random() < 0.4)
@@ -157,7 +157,7 @@ def scene(seed: int) -> Scene:
     gap = gap + rng.integers(-1, 2) * 0.3 * span
     capped, by_load = rng.random() < 1.0 / 3.0, rng.random() < 0.6
     hardness = np.inf
-    if capped:  # from all but rigid-plastic to a cap that nothing reaches
+    if capped:  # from all but rigid-plastic to a hardness that nothing reaches
         hardness = modulus * span / length * 10.0 ** rng.uniform(-2.0, 3.0)
     if by_load:
         load = modulus * span * 10.0 ** rng.uniform(-8.0, 2.0)

@@ -103,7 +103,7 @@ def test_peak_is_the_highest_pressure(chord):
     x = np.linspace(1.0, punch.half_width, 20001)
     highest = punch.pressure(x).max()
     assert highest <= punch.peak_pressure * (1.0 + 1e-14)
-    # its place is no better resolved than x itself when the corner is small
+    # its position is no better resolved than x itself when the corner is small
     assert highest == pytest.approx(punch.peak_pressure, rel=1e-7)
 
 

@@ -30,7 +30,7 @@ def test_reference_values(case):
     assert len(case["profile"]) == 6
     for row in case["profile"]:
         x, expected = float(row["x_over_lambda"]), float(row["p_over_pstar"])
-        # next to the edge the rounding of the quoted place shows
+        # next to the edge the rounding of the quoted x shows
         assert contact.pressure(x) == pytest.approx(expected, rel=1e-15 / (1.0 - x / half_width))
 
 

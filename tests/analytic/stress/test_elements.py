@@ -256,7 +256,7 @@ def test_tree_equals_direct_sum(rng, count, element, signs):
 def test_nodes_that_binary_numbers_do_not_hit(origin, element):
     """A pitch of 1 um far from the origin, against whole numbers, for which all is exact.
 
-    At nodes as they are given nothing is lost; between them what rounding moves the place by.
+    At nodes as they are given nothing is lost; between them what rounding moves the point by.
     """
     rng = np.random.default_rng(31)
     count, pitch = 2000, 1e-6

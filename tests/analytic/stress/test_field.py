@@ -1,8 +1,8 @@
 """Fields by convolution against the direct sum, and the levels they stand on; accuracy at depths
 below the sampling interval (Bailey and Sayles 1991, figure 5b).
 
-Hertz's pressure, sampled at pitch h, against the exact stresses at 0.01 h to 3 h below places
-anywhere on |x| < 0.9 a. Joined linearly it keeps its accuracy at every depth and place. Held over
+Hertz's pressure, sampled at pitch h, against the exact stresses at 0.01 h to 3 h below points
+anywhere on |x| < 0.9 a. Joined linearly it keeps its accuracy at every depth and x. Held over
 uniform strips it is as accurate on the axes of the elements only; between them the error is of
 first order in h, and with friction it grows without bound towards the strips' ends.
 """

@@ -41,7 +41,7 @@ def test_every_wave_falls_as_it_must(count, off):
     z = PERIOD * np.append(random.uniform(0.05, 1.5, 30), [0.2, 0.2, 6.0])
     error = np.abs(below(grid, pressure, x, z) - by_waves(grid, pressure, x, z)).max()
     assert 1e-4 * off < error < off
-    both = below(grid, pressure, x[30:32], z[30:32])  # the two ends of a period are one place
+    both = below(grid, pressure, x[30:32], z[30:32])  # the two ends of a period are one point
     assert both[:, 0] == pytest.approx(both[:, 1], abs=off)
 
 

@@ -84,7 +84,7 @@ class TestPoints:
         x, z = places(seed)
         p = pressures(seed)
         there = stress_at(length * NODES, load * p, friction, length * x, length * z)
-        # places are rounded to 1e-16 of 10, and at depth 1e-6 stresses vary within 1e-2
+        # points are rounded to 1e-16 of 10, and at depth 1e-6 stresses vary within 1e-2
         assert_equal(there, combined((load, at(p, friction, x, z))), 10.0 * load)
 
     @given(seed=seeds, friction=frictions, pitches=st.integers(-1000, 1000))

@@ -78,7 +78,7 @@ def test_two_waves_add_their_squares():
     figures = standard_roughness(profile, CUTOFF)
     left = 3.0 * (1.0 - transmission(2e-3, CUTOFF))
     assert figures.rq == pytest.approx(AMPLITUDE * sqrt(0.5 * (1.0 + left**2)), rel=1e-5)
-    # Each section holds another part of the long wave, so that none is as high as the whole.
+    # Each section holds another part of the long wave, so that none is as high as all of them.
     assert 2.0 * AMPLITUDE < figures.rz < figures.rt
     assert figures.rt == pytest.approx(2.0 * AMPLITUDE * (1.0 + left), rel=1e-3)
 
@@ -408,7 +408,7 @@ def test_measured_profiles_have_their_certified_figures(name):
 
 
 def test_summits_of_two_waves():
-    """cos x + cos(x/2)/10: summits alternate between 1.1 and 0.9, near enough to their places."""
+    """cos x + cos(x/2)/10: summits alternate between 1.1 and 0.9, near enough to their x."""
     x = np.linspace(-2.0 * np.pi, 14.0 * np.pi, 6401)
     profile = Profile(x, np.cos(x) + 0.1 * np.cos(0.5 * x))
     spread, curvature = summits(profile)

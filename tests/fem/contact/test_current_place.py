@@ -1,4 +1,4 @@
-"""A rigid roller at the current place: its shapes, the gap's derivative, forces in balance; two
+"""A rigid roller at the current position: its shapes, the gap's derivative, forces in balance; two
 deformed bodies: forces in balance, the tangent, conforming surfaces, and known limits.
 
 Lengths of pressed bodies in half-widths of the contact that Hertz expects, stresses in Young's

@@ -1,6 +1,6 @@
 """Sliding on finite elements: traction q = mu p that moves the surfaces, and with them the contact.
 
-Requirement: place and pressures of the contact of a sliding cylinder are the exact ones within
+Requirement: position and pressures of the contact of a sliding cylinder are the exact ones within
 1 % of its half-width; reference: the closed solution (analytic), tabulated to 30 digits.
 """
 

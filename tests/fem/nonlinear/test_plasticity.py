@@ -90,7 +90,7 @@ def test_force_and_tangent_are_those_of_quadrature_functions():
 
 
 def assembled_by_dolfinx(body, points, stress, tangent):
-    """Our node of each of dolfinx's, its force vector and its matrix; all matched by place."""
+    """Our node of each of dolfinx's, its force vector and its matrix; all matched by position."""
     import basix
     import ufl
     from dolfinx import fem

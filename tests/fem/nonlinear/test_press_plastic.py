@@ -41,7 +41,7 @@ def loaded(small_block):
 
 
 def first_yield(friction):
-    """Peak pressure by yield stress, and place in half-widths, at which Hertz's field yields."""
+    """Peak pressure by yield stress, and x, z in half-widths, at which Hertz's field yields."""
     hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
 
     def equivalent(x, z):
@@ -66,7 +66,7 @@ def large():
 
 @pytest.mark.parametrize("friction", [0.0, 0.1, 0.3])
 def test_first_yield(large, friction):
-    """Nothing flows at 2 % below the exact pressure; what flows 2 % above it is in the right place.
+    """Nothing flows at 2 % below the exact pressure; what flows 2 % above it is at the right point.
 
     The roller is elastic and of the same material, so that friction leaves Hertz's pressure.
     """
@@ -98,7 +98,7 @@ def test_below_first_yield_it_is_the_elastic_contact(small_block):
 
 @pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.0), (True, 0.1)])
 def test_what_is_condensed_changes_nothing(small_block, monkeypatch, elastic, friction):
-    """The whole roller, without a start ahead, leads to the same by the same increments. What is
+    """An entire roller, without a start ahead, leads to the same by the same increments. What is
     left on the way changes little, the plastic strain of single points most."""
     scene = MetalScene(small_block, 2.4, 6, hardening=10.0, elastic=elastic)
     loads = [0.5, 1.0, 0.0, 0.8]

@@ -1,4 +1,4 @@
-"""Largest stresses: Hertz's values and places, windows, smooth and kinked fields."""
+"""Largest stresses: Hertz's values and points, windows, smooth and kinked fields."""
 
 from dataclasses import replace
 

@@ -256,7 +256,7 @@ def test_a_turned_surface_turns_stresses_and_displacements():
 
 
 def test_sums_over_the_kinks_are_those_of_a_table():
-    """Whichever patches share a place."""
+    """Holds whichever patches share a point."""
     rng = np.random.default_rng(5)
     x = np.sort(rng.uniform(-20.0, 20.0, 30))
     kinks = Kinks(x + 0j, np.ones(30, dtype=complex), rng.normal(size=30) + 1j)
