@@ -15,7 +15,7 @@ BODY = ("body", 5)
 
 
 def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
-    """For each side of SIDES its edges (k, 3): two vertices, then the midpoint."""
+    """Edges (k, 3) of each side of SIDES: two vertices, then the midpoint."""
     edges, edge_of = unique_edges(mesh.triangles[:, :3])
     outer = np.flatnonzero(np.bincount(edge_of.ravel()) == 1)
     lines = np.column_stack([edges[outer], int(mesh.triangles[:, :3].max()) + 1 + outer])

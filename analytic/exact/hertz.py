@@ -56,7 +56,7 @@ class HertzContact:
 
     @property
     def tau1_max_depth(self) -> float:
-        """Its depth [m], a / sqrt(g): tau1 = (p0/a) (z - z^2/sqrt(a^2 + z^2)) on the axis."""
+        """Depth [m], a / sqrt(g), of the largest (p0/a) (z - z^2/sqrt(a^2 + z^2)) on the axis."""
         return self.half_width / np.sqrt(_GOLDEN)
 
 

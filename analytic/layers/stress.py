@@ -44,7 +44,7 @@ class AddedStress:
         pressure: np.ndarray,
         x_range: tuple[float, float],
     ) -> "AddedStress":
-        """Under hats of pressure (n,) [Pa] on uniform x_nodes (n,) [m], for x in x_range [m].
+        """Waves of hats of pressure (n,) [Pa] on uniform x_nodes (n,) [m], for x in x_range [m].
         Raises ValueError for nodes that are not uniform."""
         pitch = uniform_pitch(x_nodes, pressure)
         loaded = np.flatnonzero(pressure)
@@ -73,7 +73,7 @@ class AddedStress:
         return added
 
     def at(self, friction: float, x: np.ndarray, z: np.ndarray, below: bool = False) -> StressState:
-        """Under q = friction * p, at x, z [m] of any one shape."""
+        """Stresses under q = friction * p, at x, z [m] of any one shape."""
         flat = x.ravel() - self.middle, z.ravel()
         k = np.broadcast_to(self.wavenumber, (len(flat[0]), len(self.wavenumber)))
         depth = np.broadcast_to(flat[1][:, None], k.shape)
@@ -99,7 +99,7 @@ def _rows(body: LayeredBody, k: np.ndarray, z: np.ndarray, below: bool) -> np.nd
 
 
 def _below(body: LayeredBody, k: np.ndarray, z: np.ndarray) -> tuple[StressState, StressState]:
-    """Under the layer: what the interface makes there, less the half-plane's."""
+    """Stresses under the layer: what the interface makes there, less the half-plane's."""
     if body.rigid or np.any(z < body.thickness * (1.0 - 1e-12)):
         raise ValueError(f"depths must lie in the base, from {body.thickness:g} m on")
     interface = np.full(np.shape(k), body.thickness)

@@ -104,7 +104,7 @@ class Hardening:
         return start + self.modulus * strain
 
     def slope(self, strain: np.ndarray) -> np.ndarray:
-        """Its derivative by k [Pa]; at the points of a table that to the right, of Ludwik's law
+        """Derivative by k [Pa]; at the points of a table that to the right, of Ludwik's law
         with n < 1 infinite at k = 0."""
         if self.voce is not None:
             saturated, rate = self.voce

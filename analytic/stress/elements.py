@@ -31,7 +31,7 @@ class FrictionStress:
 
     @classmethod
     def of(cls, parts: np.ndarray, along: float = 0.0) -> "FrictionStress":
-        """From sx, sz, txz under p and sx under q (4, …) [Pa]."""
+        """Stresses from sx, sz, txz under p and sx under q (4, …) [Pa]."""
         return cls(StressState(*parts[:3]), parts[3], along)
 
     @property
@@ -45,11 +45,11 @@ class FrictionStress:
 
     @property
     def traction(self) -> StressState:
-        """Under q = p in +x alone."""
+        """Stresses under q = p in +x alone."""
         return StressState(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
 
     def at(self, friction: float) -> StressState:
-        """Under p and q = friction * p together."""
+        """Stresses under p and q = friction * p together."""
         state = self.normal.plus(friction, self.traction) if friction != 0.0 else self.normal
         return replace(state, sx=state.sx + self.along) if self.along else state
 
@@ -57,7 +57,7 @@ class FrictionStress:
 def strip_between(
     left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray
 ) -> FrictionStress:
-    """Under unit p and unit q on |x| < a, from `left` = x + a, x, `right` = x - a and z >= 0 [m].
+    """Stresses under unit p and q on |x| < a, from `left` = x + a, x, `right` = x - a, z >= 0 [m].
 
     Each of them is known to rounding. On the surface the ends belong half to the strip, and sx
     under q is infinite there. Of Bailey and Sayles 1991, eq. (1) and (2), with t1, t2 =
@@ -91,7 +91,7 @@ def strip_between(
 
 
 def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
-    """Under unit p and q at 0 that fall linearly to zero at -1 and 1; x and z >= 0 in pitches."""
+    """Stresses under unit p and q at 0 that fall linearly to zero at -1 and 1; x, z in pitches."""
     parts = np.empty((4, *x.shape))
     near = np.hypot(x, z) < NEAREST_FAR
     parts[:, near] = _hat_closed(x[near], z[near])

@@ -87,7 +87,7 @@ def check_cutoff(profile: Profile, cutoff: float) -> None:
 
 
 def _weighted_line(height: np.ndarray, step: float) -> np.ndarray:
-    """At every point of an even grid the value of the line fitted around it, (n,).
+    """Value of the line fitted around each point of an even grid, (n,).
 
     step   of the grid, over the cut-off
 

@@ -30,7 +30,7 @@ class ExecutorWorker:
         return f"was lost: {self._future.exception()}"
 
     def kill(self) -> None:
-        """It ends where it has not begun."""
+        """End the task where it has not begun."""
         self._future.cancel()
 
     @staticmethod

@@ -124,7 +124,7 @@ def percent_as_written(value: float) -> str:
 
 
 def rounded_up(size: float) -> float:
-    """To two digits, never below it: a tolerance that a user would write."""
+    """Round up to two digits: a tolerance that a user would write."""
     exact = Decimal(repr(size))
     step = Decimal(1).scaleb(exact.adjusted() - 1)
     return float(exact.quantize(step, ROUND_CEILING)) if size else size

@@ -75,7 +75,7 @@ class ProcessWorker:
     def ready(
         workers: Sequence["ProcessWorker"], timeout: float | None = None
     ) -> list["ProcessWorker"]:
-        """Those that have something to say, or have ended; waits for one."""
+        """Workers that have something to say, or have ended; waits for one."""
         pipes = {worker._pipe: worker for worker in workers}
         return [pipes[pipe] for pipe in wait(list(pipes), timeout)]
 
@@ -102,8 +102,8 @@ def cores() -> int:
 
 
 def return_freed_memory() -> None:
-    """To the system: the C library keeps what was freed in blocks of some megabytes, as a factor
-    is, for this process alone."""
+    """Return it to the system: the C library keeps what was freed in blocks of some megabytes, as a
+    factor is, for this process alone."""
     with suppress(AttributeError):  # of Debian's C library
         ctypes.CDLL(None).malloc_trim(0)
 

@@ -15,7 +15,7 @@ from comparisons.common.errors import nearest
 
 
 class UnitError(ValueError):
-    """Not a quantity of the wanted dimension; `str` says what was given, not what is allowed."""
+    """Error where a value has another dimension; `str` says what was given, not what is allowed."""
 
 
 class UnknownUnitError(UnitError):

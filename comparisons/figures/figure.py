@@ -216,7 +216,7 @@ class Figures(tuple[Figure, ...]):
         return made
 
     def of(self, **wanted: object) -> "Figures":
-        """Those whose fields (or `friction`) have the wanted values."""
+        """Figures whose fields (or `friction`) have the wanted values."""
         return Figures(f for f in self if all(getattr(f, n) == v for n, v in wanted.items()))
 
     def one(self, **wanted: object) -> Figure | None:

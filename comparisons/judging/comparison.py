@@ -42,7 +42,7 @@ def solve_layered(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) 
 
 
 def _differences(case: Case, model: Solution) -> Iterator[Figure]:
-    """Those of an analytic model from the finite elements of a case, and their norms."""
+    """Differences of an analytic model from the finite elements of a case, and their norms."""
     elements = case.runs["finite_element"]
     yield from judged(model, case.problem, elements).values()
     yield from norms_of(model, case.problem, elements)

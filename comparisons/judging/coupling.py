@@ -89,7 +89,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 def figures_of_changes(
     coupling: Coupling, problem: Problem, known: Iterable[Figure]
 ) -> Iterator[Figure]:
-    """Each figure with coupling and its change; `known` are the models' own."""
+    """Figures with coupling and their changes; `known` are the models' own."""
     at = {"friction": coupling.friction}
     without = (f for f in known if f.source == "half_plane" and f.at == at and f.levels)
     stated = {figure.quantity: figure for figure in without}
@@ -105,7 +105,7 @@ def figures_of_changes(
 
 
 def coupling_of(case: Case, callback: ProgressCallback) -> Coupling:
-    """From the finished half-plane of a case."""
+    """Changes from the finished half-plane of a case."""
     problem, friction, level = case.problem, case.friction, case.runs["half_plane"].finest
     if (why := no_coupling(problem, friction)) is not None:
         return Coupling(friction, why=why)

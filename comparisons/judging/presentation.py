@@ -13,7 +13,7 @@ from comparisons.judging.study import CONVERGED, WHY_NOT, Run, Study
 
 
 def parts_of(study: Study, run: Run) -> list[Block]:
-    """Its parts of the page: pictures; a table of what models say and of what is compared with
+    """Parts of a study's page: pictures; a table of what models say and of what is compared with
     them; as names and values what it states and what others say; how to read that."""
     if study.blocks is not None or not study.title:
         return study.blocks(run) if study.blocks else []
@@ -39,7 +39,7 @@ def parts_of(study: Study, run: Run) -> list[Block]:
 
 
 def lines_of(study: Study, run: Run) -> list[tuple[str, str]]:
-    """Its lines of the terminal: what it judges, or its first figure, or why there is none."""
+    """Lines of the terminal: what the study judges, or its first figure, or why there is none."""
     if study.lines is not None or not study.title:
         return study.lines(run) if study.lines else []
     by_models, others = _figures(study, run)
@@ -50,7 +50,7 @@ def lines_of(study: Study, run: Run) -> list[tuple[str, str]]:
 
 
 def _figures(study: Study, run: Run) -> tuple[list[Figure], list[Figure]]:
-    """Those of models and of what is compared with one; and those of other sources."""
+    """Figures of models and of what is compared with one; and those of other sources."""
     known = [f for f in run.findings[study.name].figures if f.quantity in _shown(study)]
     compared = {name for f in known if f.against for name in (f.source, f.against)}
     models = {*LABELS, *compared}
@@ -58,6 +58,6 @@ def _figures(study: Study, run: Run) -> tuple[list[Figure], list[Figure]]:
 
 
 def _shown(study: Study) -> Mapping[str, Quantity]:
-    """Its quantities in the order in which they are shown."""
+    """Quantities in the order in which they are shown."""
     names = study.quantities if study.shown is None else study.shown
     return {name: study.quantities[name] for name in names if name in study.quantities}

@@ -135,9 +135,9 @@ class FlowAssessment:
 
     @property
     def at_such_stresses(self) -> str:
-        """That a body flows under the shears of the half-plane where no model of the scene can show
-        it: for want of a yield stress, by what its solid typically bears; or because elastic bodies
-        are the question. A clause, or nothing."""
+        """Clause that a body flows under the shears of the half-plane where no model of the scene
+        can show it: for want of a yield stress, by what its solid typically bears; or because
+        elastic bodies are the question. Empty if it does not."""
         shear, typical = with_unit(self.worst.value, "Pa", 2), typical_shears(self.scene.body)
         limit, where = self.limits[YIELD], ""
         if self.ratio is None and typical and self.least_shear > BOTH_CRITERIA * typical[1]:
@@ -237,7 +237,7 @@ def _figures(case: Case, yield_stress: float | None, hardness: float | None) -> 
 
 
 def may_flow(run: Run, at_any: bool = False) -> str:
-    """That a body whose yield stress is not given may flow, as a clause; empty where it cannot,
+    """Clause that a body whose yield stress is not given may flow; empty where it cannot,
     where that is known or not asked.
 
     at_any  whether it would at any typical yield stress"""
@@ -286,7 +286,7 @@ def note(run: Run) -> str:
 
 
 def lines(run: Run) -> list[tuple[str, str]]:
-    """That it flows where no model shows it; with a yield stress shakedown and, of a rough body,
+    """Lines on flow where no model shows it; with a yield stress on shakedown and, of a rough body,
     its plasticity, at the largest shear."""
     flow, names = run.data(NAME), tuple(QUANTITIES)[8:12]
     at = None, flow.worst.friction

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Model:
-    """Its levels have numbers from 1, coarse to fine, and pitches by `Problem.pitch_of`."""
+    """Model whose levels have numbers from 1, coarse to fine, and pitches by `Problem.pitch_of`."""
 
     name: str  # of its levels among the tasks of a run; of the scene's own, the source of figures
     solver: Literal["analytic", "finite elements"]

@@ -61,7 +61,7 @@ class Window:
 
 @dataclass(frozen=True)
 class Levels:
-    """So many levels, whatever time they take, in place of as many as the scene's budget allows."""
+    """Numbers of levels, whatever time they take, instead of as many as the budget allows."""
 
     models: int  # of each model
     effects: int | None = None  # of the effects, at most
@@ -92,7 +92,7 @@ class Problem:
 
     @property
     def time(self) -> float:
-        """That solving may take [s], by the laws of cost."""
+        """Time that solving may take [s], by the laws of cost."""
         return self.scene.budget.time if self.levels is None else np.inf
 
     @property

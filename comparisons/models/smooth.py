@@ -32,7 +32,7 @@ class ClosedForm:
 
 
 def closed_form(problem: Problem) -> ClosedForm | None:
-    """None where there is none."""
+    """Closed form of a smooth contact; None where there is none."""
     scene, hertz = problem.scene, problem.hertz
     if not scene.periodic:
         size = hertz.peak_pressure, 2.0 * hertz.half_width

@@ -45,7 +45,7 @@ class RunArrays:
 
     @classmethod
     def of(cls, run: Run) -> Self:
-        """Those of a finished run, in full precision."""
+        """Arrays of a finished run, in full precision."""
         arrays = {} if run.window is None else {"x": run.window.x, "z": run.window.z}
         for folder, levels in levels_by_folder(run).items():
             level, *_ = levels.values()
@@ -61,7 +61,7 @@ class RunArrays:
 
     @classmethod
     def read(cls, folder: Path) -> Self:
-        """Those in a run's folder. Raises InputError, one line, where there are none."""
+        """Read those in a run's folder. Raises InputError, one line, where there are none."""
         allowed = f"allowed is {FILE} as the run wrote it: run the scene again"
         try:
             with np.load(folder / FILE, allow_pickle=False) as file:
@@ -102,7 +102,7 @@ class RunArrays:
         return places | dict(zip(COMPONENTS, parts, strict=True)) | {"tau1": tau1}
 
     def trace(self) -> Profile:
-        """That of a rough surface, as read or made."""
+        """Trace of a rough surface, as read or made."""
         return Profile(self.arrays["trace_x"], self.arrays["trace_height"])
 
     def _folder(self, model: str, friction: float) -> str:

@@ -59,8 +59,8 @@ def junit_of_run(run: Run) -> str:
 
 
 def run_cases_of(run: Run) -> list[JunitCase]:
-    """That the solvers converged, and each judged figure. One that differs or fails is a failure;
-    an inconclusive one is skipped, with the reason; all are errors where a solver did not
+    """Cases: that the solvers converged, and each judged figure. One that differs or fails is a
+    failure; an inconclusive one is skipped, with the reason; all are errors where a solver did not
     converge."""
     scene, said = run.problem.scene.name, headline(run)
     sentence = f"{said.within.sentence} {said.sentence}"

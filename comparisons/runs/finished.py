@@ -56,7 +56,7 @@ class FinishedRun(Result):
         return self.summary
 
     def tables(self, details: bool = False) -> "RenderableType":
-        """Those of the command; with `details` every compared quantity, where the models agree."""
+        """Tables of the command; with `details` every compared quantity, where the models agree."""
         return summary(self.outcome, details)
 
     @property

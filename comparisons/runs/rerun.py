@@ -55,7 +55,7 @@ class Repetition(Printed):
 
     @property
     def figures(self) -> Records:
-        """Those that moved, as records."""
+        """Figures that moved, as records."""
         return Records([asdict(moved) for moved in self.movement.moved])
 
     @property
@@ -66,7 +66,7 @@ class Repetition(Printed):
         return ExitStatus.OUTSIDE_TOLERANCE if self.movement.beyond else ExitStatus.DONE
 
     def as_dict(self) -> dict:
-        """For JSON."""
+        """Movement for JSON."""
         return {
             "schema": 1,
             "scene": self.outcome.problem.scene.name,

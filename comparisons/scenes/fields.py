@@ -113,7 +113,7 @@ class FieldType(ABC):
 
     @abstractmethod
     def schema(self) -> dict:
-        """Its JSON Schema; the title is what is allowed, in words."""
+        """JSON Schema of the field; the title is what is allowed, in words."""
 
     def __get_pydantic_core_schema__(self, source: object, handler: object) -> object:
         return core_schema.no_info_plain_validator_function(self.read)

@@ -47,7 +47,7 @@ class HardeningSection(SceneSection):
 
     @property
     def laws(self) -> dict[str, object]:
-        """Those that are given, by name, as `analytic.material.hardening` takes them."""
+        """Laws that are given, by name, as `analytic.material.hardening` takes them."""
         given = {name: getattr(self, name) for name in type(self).model_fields}
         return {
             name: tuple(dict(law).values()) if isinstance(law, SceneSection) else law

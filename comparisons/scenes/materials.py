@@ -99,7 +99,7 @@ class Solid:
 
     @property
     def material(self) -> Material | None:
-        """None where Poisson's ratio is not known."""
+        """Elastic material; None where Poisson's ratio is not known."""
         if not ELASTIC.keys() <= self.values.keys():
             return None
         return Material(*(self.values[name].value for name in ELASTIC), self.law or Law())
@@ -147,7 +147,7 @@ def sources() -> dict[str, str]:
 
 @cache
 def _names() -> dict[str, str]:
-    """Each solid's first name by its names as `_key` writes them."""
+    """First names of all solids, by their names as `_key` writes them."""
     return {
         _key(name): solid.name
         for solid in solids().values()
@@ -197,7 +197,7 @@ def kinds_like(youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
 
 
 def measured_solids(*kinds: str) -> list[Solid]:
-    """Those of known third-order constants in any of the classes, or in the next wider ones where
+    """Solids of known third-order constants in any of the classes, or in the next wider ones where
     these have fewer than two; all there are without a class."""
     within = kinds or (ANY,)
     while len(measured := [solid for solid in solids().values() if _is_of(solid, within)]) < 2:
@@ -217,8 +217,8 @@ def bounding_solids(kind: str, youngs_modulus: float, poissons_ratio: float) -> 
 
 
 def typical_range(name: str, solid: str | None, kinds: Iterable[str]) -> tuple[float, float] | None:
-    """From which to which value [SI] a strength of TYPICAL goes, of a solid where it is known, else
-    of the classes; None where nothing is known."""
+    """Range [SI] of a strength of TYPICAL, of a solid where it is known, else of the classes; None
+    where nothing is known."""
     of_solid = [solids()[solid]] if solid is not None else []
     for those in (of_solid, [other for other in solids().values() if other.kind in set(kinds)]):
         known = [other.typical[name] for other in those if name in other.typical]

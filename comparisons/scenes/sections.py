@@ -117,14 +117,14 @@ class ElasticSection(SceneSection):
 
     @property
     def measured_law(self) -> Law | None:
-        """That of the solid it is named after, where it has its measured constants."""
+        """Law of the solid it is named after, where it has its measured constants."""
         law = solids()[self.solid].law if self.solid else None
         constants = self.murnaghan and self.murnaghan.constants
         return law if law is not None and law.murnaghan == constants is not None else None
 
     @property
     def material(self) -> Material | None:
-        """None of a rigid body."""
+        """Elastic material; None of a rigid body."""
         law, measured = Law(), self.measured_law
         if self.law not in (None, LINEAR):
             constants = self.murnaghan and self.murnaghan.constants
@@ -148,7 +148,7 @@ def _law_of(solid: Solid, table: Mapping) -> dict[str, object]:
 
 
 def _in_si(value: object, dimension: Dimension) -> float | None:
-    """None for what is no such quantity, which its field then refuses."""
+    """Value in SI; None for what is no such quantity, which its field then refuses."""
     try:
         return to_si(value, dimension)
     except UnitError:

@@ -9,7 +9,7 @@ from scipy.sparse import csr_matrix
 def matrix_of(
     value: np.ndarray, row: np.ndarray, column: np.ndarray, shape: tuple[int, int]
 ) -> csr_matrix:
-    """Each value added at its row and column; the three arrays are broadcast together."""
+    """Matrix of values added at their rows and columns; the arrays are broadcast together."""
     value, row, column = (array.ravel() for array in np.broadcast_arrays(value, row, column))
     return csr_matrix((value, (row, column)), shape=shape)
 

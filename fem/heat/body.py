@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class ThermalBody:
-    """Made by `thermal_body`. All matrices (n, n) per length out of the plane.
+    """Body made by `thermal_body`. All matrices (n, n) per length out of the plane.
 
     coating     its material is a ThermalMaterial
     radius      of the disc [m], infinite for a flat body

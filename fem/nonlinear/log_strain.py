@@ -50,7 +50,7 @@ class LogStrain:
         self.strain = np.column_stack([half + h * self._d, half - h * self._d, 2.0 * h * self._c])
 
     def at(self, some: np.ndarray) -> "LogStrain":
-        """That of some of the k."""
+        """Strain of some of the k."""
         part = copy(self)
         vars(part).update((name, of[some]) for name, of in vars(self).items() if name != "_h")
         part._h = tuple(array[some] for array in self._h)

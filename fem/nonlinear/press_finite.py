@@ -68,7 +68,7 @@ class _Surfaces:
         self.begin(self.roller)
 
     def begin(self, roller: np.ndarray) -> None:
-        """From another displacement (m, 2) [m] of the roller."""
+        """Begin from another displacement (m, 2) [m] of the roller."""
         self.roller, self._last_terms = roller, None
         self._there: tuple[np.ndarray, np.ndarray] | None = None  # where it has followed to
 

@@ -278,7 +278,7 @@ class LoadHistory:
         return contacts
 
     def _to_elastic(self, load: float) -> float:
-        """To a load [N/m] if nothing flows up to there, and then 0; else how many times the flow
+        """Go to a load [N/m] if nothing flows up to there, and then 0; else how many times the flow
         stress is exceeded there, infinite where that is not known."""
         start = self._near(load, self.body.state)
         if start is None:

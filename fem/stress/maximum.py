@@ -177,7 +177,7 @@ def _between_nodes(
 
 
 def _able(elements: np.ndarray, value: np.ndarray, rise: float) -> np.ndarray:
-    """Those of the elements (r,) that may hold the largest value by samples (r, q), at most BEST;
+    """Elements of these (r,) that may hold the largest value by samples (r, q), at most BEST;
     `rise` is between samples, of what an element's differ by."""
     highest = value.max(axis=1)
     lowest = value.min(axis=1, where=value > -np.inf, initial=np.inf)

@@ -142,7 +142,7 @@ class Patches:
         return np.repeat(np.arange(len(self.vertex)), np.diff(self.start))
 
     def of(self, wanted: np.ndarray) -> "Patches":
-        """Those alone that give the stresses at the `wanted` (k,) of all stress nodes."""
+        """Patches that give the stresses at the `wanted` (k,) of all stress nodes."""
         edge = wanted[self.middle]
         chosen = wanted[self.vertex]
         chosen[self.ends[edge]] = True

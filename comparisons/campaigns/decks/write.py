@@ -61,11 +61,11 @@ class Deck(Printed):
         return Records([{"nodes": self.problem.nodes, "edge": self.problem.edge / MM}])
 
     def as_dict(self) -> dict:
-        """For JSON."""
+        """Code, files and figures for JSON."""
         return {"code": self.code, "files": sorted([*self.files, *PAGES]), **self.figures.rows[0]}
 
     def tables(self) -> str:
-        """Its size, and where it says how to solve it."""
+        """Size of the deck, and where it says how to solve it."""
         return f"{self.problem.nodes} nodes; {PAGES[0]} says how to solve it"
 
     def write(self, folder: Path) -> None:

@@ -45,7 +45,7 @@ class FirstScene(Printed):
     examples: tuple[str, ...]
 
     def as_dict(self) -> dict:
-        """For JSON, SI units."""
+        """Scene and surface for JSON, SI units."""
         info = self.surface.info
         trace = info.as_dict()
         return {

@@ -134,7 +134,7 @@ def pressed(height: np.ndarray, load: float) -> LoadedContact:
 
 
 def vanishing_figures(load: float) -> CaseFigures:
-    """Under next to no load one node alone carries it, and the gap is as it was."""
+    """Figures under next to no load: one node alone carries it, and the gap is as it was."""
     height = rough(LINE_COUNT)
     contact = pressed(height, load)
     opened = np.abs(contact.solution.gap - (height.max() - height)).max() / np.ptp(height)

@@ -70,7 +70,7 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
 def operator_cases(
     contacts: Sequence[OperatorContact], ends: tuple[float, float] = RESOLUTIONS
 ) -> list[Trial]:
-    """Each contact with its own number of elements on the third level, between the ends."""
+    """Cases of each contact, with numbers of elements of its own on the third level."""
     return [
         Trial(
             contact.kind,

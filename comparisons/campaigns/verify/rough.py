@@ -72,8 +72,8 @@ def rough_cases() -> list[Trial]:
 def rough_scenes(
     half_planes: int = HALF_PLANES, finite_elements: int = FINITE_ELEMENTS, layers: int = LAYERS
 ) -> tuple[ExactScene, ...]:
-    """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
-    the finite elements; with the model error where there are finite elements."""
+    """Scenes of so many half-planes for the half-plane and for finite elements, and of LAYERED for
+    finite elements; with the model error where there are finite elements."""
     bodies = [HALF_PLANE] * (half_planes + finite_elements) + LAYERED[:layers]
     resolutions = spread(half_planes, ELEMENTS) + spread(len(bodies) - half_planes, MESHED)
     scenes = []

@@ -303,7 +303,7 @@ def why_no_flow(problem: Problem) -> str | None:
 
 
 def typical_shears(body: BodySection) -> tuple[float, float] | None:
-    """From which to which shear [Pa] bodies of its solid typically flow, Y/2 by Tresca; of its
+    """Range of shears [Pa] at which bodies of its solid typically flow, Y/2 by Tresca; of its
     class where only that is known, None where nothing is, or of a rubber."""
     if body.youngs_modulus <= STIFF:
         return None
@@ -312,6 +312,6 @@ def typical_shears(body: BodySection) -> tuple[float, float] | None:
 
 
 def flow_of(body: BodySection) -> str:
-    """At which shears its solid typically flows, as a clause."""
+    """Clause on the shears at which its solid typically flows."""
     span = " to ".join(dict.fromkeys(with_unit(end, "Pa", 2) for end in typical_shears(body)))
     return f"{body.solid or ' or '.join(body.kinds)} typically flows at a shear of {span}"

@@ -90,7 +90,7 @@ class OpenLaw:
 
     @property
     def words(self) -> str:
-        """For the account of effects."""
+        """Words for the account of effects."""
         solved = " and ".join(self.probes)
         if self.is_scatter:
             return f"its constants were measured; for their errors it is solved with {solved}"
@@ -112,7 +112,7 @@ class OpenLaw:
 
 
 def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
-    """Those of a scene's elastic bodies; bodies of one solid vary together, as do those of equal
+    """Laws of a scene's elastic bodies; bodies of one solid vary together, as do those of equal
     constants that name none."""
     bodies: dict[OpenLaw, list[str]] = {}
     for name, section in scene.elastic_sections.items():
@@ -122,7 +122,7 @@ def open_laws(scene: Scene) -> tuple[OpenLaw, ...]:
 
 
 def _open_law(section: ElasticSection) -> OpenLaw | None:
-    """None where the law is known for certain."""
+    """Law of a section; None where it is known for certain."""
     material = section.material
     if section.law is not None:
         return _scattered(material) if section.measured_law is not None else None
@@ -135,7 +135,7 @@ def _open_law(section: ElasticSection) -> OpenLaw | None:
 
 
 def _scattered(material: Material) -> OpenLaw:
-    """Each of l and m moved, by more than its standard error: a small change of a length, which is
+    """Law with l and m moved, by more than the standard error: a small change of a length, which is
     read between nodes, would be noise."""
     constants = np.array(material.law.murnaghan)
     errors = material.law.standard_errors or NOT_STATED * np.abs(constants)

@@ -79,8 +79,8 @@ def other_elements(problem: Problem, *numbers: int) -> Methods:
 
 
 def methods_of(problem: Problem) -> Methods:
-    """Those that `crosscheck cost` asks for and apply, beside what every run solves; a level before
-    the first is coarser."""
+    """Methods that `crosscheck cost` asks for and apply, beside what every run solves; level 0 is
+    coarser than the first."""
     plane, own = LABELS["half_plane"], LABELS["finite_element"]
     half_plane = _method(plane, "analytic", problem.half_plane_effects)
     methods = {half_plane: (0, 4, 5), _method(own): (0,)} | other_elements(problem, 0, 1, 2)
@@ -157,7 +157,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findi
 
 
 def _levels_of_run(solved: Solved, before: Mapping[str, Findings]) -> list[Levels]:
-    """Those of its models, and the whole's where that is another one: the last is the best."""
+    """Levels of the run's models, and of the whole model if it is another: the last is the best."""
     levels, cases = [], solved.cases
     for name, run in solved.runs.items():
         for number in range(len(run.levels)):

@@ -281,7 +281,7 @@ def lines(run: Run) -> list[tuple[str, str]]:
 
 
 def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
-    """Each model's row of the series, its name in words, and its errors."""
+    """Rows of the series by model, with its name in words, and its errors."""
     table, known = run.findings[LADDER].table(RUNGS), run.figures.of(study=LADDER)
     rows = [] if table is None else table.rows()
     return [(row, row["model"], known.of(source=row["rung"], against=WHOLE)) for row in rows]

@@ -49,7 +49,7 @@ class SplitVariants:
 
     @property
     def wholes(self) -> tuple[Model, ...]:
-        """Those that the model error takes; the others split it."""
+        """Models that the model error takes; the others split it."""
         return (self.whole,) if self.of_scene is None else (self.whole, self.of_scene)
 
     @property
@@ -60,13 +60,13 @@ class SplitVariants:
 
     @property
     def all(self) -> tuple[Model, ...]:
-        """Each once, the whole model first."""
+        """Models, each once, the whole model first."""
         of_pairs = (variant for pair in self.pairs.values() for variant in pair)
         return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
 
     @property
     def checks(self) -> tuple[Model, ...]:
-        """Those that are solved on the coarsest level alone."""
+        """Models that are solved on the coarsest level alone."""
         return (*self.laws.values(), *self.increments, *self.held_nearer.values())
 
 

@@ -99,7 +99,7 @@ class Solutions:
 
     @cached_property
     def half_plane(self) -> QuantitiesOfInterest:
-        """Its finest level."""
+        """Quantities of the half-plane on its finest level."""
         return quantities_of(self.case.runs["half_plane"].finest, self.case.problem)
 
     @cached_property

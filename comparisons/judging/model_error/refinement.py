@@ -104,7 +104,7 @@ class EffectRefinement:
 
     @property
     def most_levels(self) -> int:
-        """That the effects may be taken to: no more than those of the scene's own models."""
+        """Levels for the effects at most: no more than those of the scene's own models."""
         most = None if self.problem.levels is None else self.problem.levels.effects
         own = len(self.scene.runs["half_plane"].levels)
         return min(MOST_LEVELS, most or MOST_LEVELS, own)
@@ -218,7 +218,7 @@ class EffectRefinement:
                 raise NotComputedError(why)
 
     def _solve_checks(self) -> None:
-        """On the coarsest level; where one of the laws has no solution, none is taken."""
+        """Solve the coarsest level; where one of the laws has no solution, none is taken."""
         for split in self.splits:
             self.prepare(split.checks, 1)
         laws = [law for split in self.splits for law in split.laws.items()]
@@ -291,7 +291,7 @@ class EffectRefinement:
 
 
 def own_variants(problem: Problem) -> set[Model]:
-    """Those that the scene's own finite elements are; none where these are more than effects."""
+    """Models that the scene's own finite elements are; none where these are more than effects."""
     scene = problem.scene
     if not is_taken_apart(scene):
         return set()

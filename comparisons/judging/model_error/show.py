@@ -134,7 +134,7 @@ def leaves_flow_out(run: Run, error: Figure) -> bool:
 
 
 def _not_known(run: Run, error: Figure) -> str:
-    """That effects which no model has may exceed the tolerance; else nothing."""
+    """Words where effects that no model has may exceed the tolerance; else nothing."""
     if leaves_flow_out(run, error):
         return f"{EFFECTS[FLOW].label} not modelled"
     others = math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
@@ -144,7 +144,7 @@ def _not_known(run: Run, error: Figure) -> str:
 
 
 def law_range(error: Figure) -> str:
-    """From which error to which, by the law of elasticity, where the scene names no solid; empty
+    """Range of the error by the law of elasticity, where the scene names no solid; empty
     where it does."""
     part = error.part(LAW)
     if part is None or not part.uncertainty:

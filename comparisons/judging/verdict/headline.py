@@ -108,7 +108,7 @@ class Obstacle:
 
 
 def obstacle(run: Run) -> Obstacle | None:
-    """None where the errors decide."""
+    """Obstacle to a verdict; None where the errors decide."""
     if not run.converged:
         why = f"a solver did not converge ({', '.join(_not_converged(run))})"
         return Obstacle("not converged", why, UNFOUNDED)
@@ -208,7 +208,7 @@ def _sentence(run: Run, kind: Kind, within: Within) -> str:
 
 
 def verdicts(run: Run, said: Headline) -> list[tuple[str, str]]:
-    """That on the half-plane, and those of studies: a word or two and a sentence."""
+    """Verdicts on the half-plane and of studies: a word or two and a sentence."""
     others = (verdict for study in run.studies for verdict in study.verdicts(run))
     return [(kind.upper(), sentence) for kind, sentence in ((said.kind, said.sentence), *others)]
 
@@ -244,7 +244,7 @@ def _other(run: Run, within: Within, error: Figure, words: str) -> str:
 
 
 def _law_leaned_on(run: Run) -> str:
-    """For the end of a sentence: the whole model's law of elasticity, or that none changes the
+    """End of a sentence: the whole model's law of elasticity, or that none changes the
     verdict; nothing where it deforms little."""
     selection, scene = run.data(MODEL_ERROR).selection, run.problem.scene
     if "finite_strain" not in selection.whole or FLOW in selection.whole:  # that has Hencky's
@@ -273,7 +273,7 @@ def _inconclusive(run: Run, within: Within, worst: Figure) -> str:
 
 
 def _dominant(error: Figure) -> str:
-    """That the effects interact, or the one that makes more than half of an error, if any does."""
+    """Clause that the effects interact, or on the one that makes more than half of an error."""
     sizes = {part.name: abs(part.value) for part in error.parts if part.name in EFFECTS}
     joint = error.part(INTERACTION)
     if sizes and abs(joint.value) > max(sizes.values()):

@@ -114,7 +114,7 @@ def expected_unknowns(problem: Problem, refinement: Refinement, patches: np.ndar
 
 
 def expected(problem: Problem, refinement: Refinement, patches: np.ndarray) -> ExpectedCost:
-    """For contact predicted on `patches` (k, 2) [m]."""
+    """Cost of a level, for contact predicted on `patches` (k, 2) [m]."""
     unknowns = expected_unknowns(problem, refinement, patches)
     factorisation = factorisation_seconds(unknowns)
     others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS

@@ -74,7 +74,7 @@ class Report:
 
     @cached_property
     def cells(self) -> dict[str, Cell]:
-        """Those of COLUMNS that the run has."""
+        """Cells of those of COLUMNS that the run has."""
         return {name: Cell(*said) for name, *said in _cells(self.result)}
 
 

@@ -96,7 +96,7 @@ class HeatSection(SceneSection):
 
     @property
     def coating(self) -> ThermalMaterial | None:
-        """None without one."""
+        """Thermal material of the coating; None without one."""
         return None if self.coating_conductivity is None else self._material("coating")
 
     def _material(self, body: str) -> ThermalMaterial:

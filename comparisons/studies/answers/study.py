@@ -117,7 +117,7 @@ def _on_level(answer: Answer, level: Level, friction: float) -> Level:
 
 
 def _values(answer: Answer, case: Case) -> dict[str, float]:
-    """Its compared quantities; the largest pressure as given, wherever the elements are."""
+    """Compared quantities of an answer; its largest pressure as given, wherever elements are."""
     *_, model = case.runs.values()
     values = values_of(_on_level(answer, model.finest, case.friction), case.problem)
     return values | {"peak_pressure": float(answer.pressure.max())}

@@ -79,8 +79,8 @@ class SlippedLevel:
 
     @cached_property
     def figures(self) -> dict[str, float]:
-        """At the end of the path of loads; of fatigue Ruiz' parameter, and with a cycle Smith,
-        Watson and Topper's."""
+        """Figures at the end of the path of loads; of fatigue Ruiz' parameter, and with a cycle
+        Smith, Watson and Topper's."""
         normal, stuck = self.states[-1].normal, float(np.ptp(self.zones[-1], axis=1).sum())
         edges = contact_patches(self.grid.x, normal.pressure, normal.gap)
         touching = self.grid.x[normal.pressure > 0.0]

@@ -76,7 +76,7 @@ class HeatedContact:
 
 
 def reach_of(problem: Problem) -> float:
-    """From the contact to where a body that it stays on has its bulk temperature [m]."""
+    """Distance from the contact to where a body that it stays on has its bulk temperature [m]."""
     return problem.scene.heat.reach or problem.scene.roller.radius
 
 

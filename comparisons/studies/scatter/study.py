@@ -143,7 +143,7 @@ def _batches(points: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _tasks(solved: Solved, tasks: Tasks) -> Tasks:
-    """Those that solve samples: the run's, or by workers from outside."""
+    """Tasks that solve samples: the run's, or by workers from outside."""
     if solved.opens is None:
         return tasks
     return tasks.held(NAME, NAME, lambda: Tasks(solved.opens, math.inf, tasks.kept))

@@ -140,7 +140,7 @@ def _summits(
 
 
 def _cylinders(problem: Problem, load: float) -> "list[RoughContact]":
-    """On summits by moments and by counting."""
+    """Rough cylinders on summits by moments and by counting."""
     from analytic.statistics.rough_bodies import rough_cylinder
 
     profile, radius = problem.surface.profile, problem.scene.roller.radius

@@ -69,7 +69,7 @@ def overview(run: Run, width: float) -> "Drawn":
 
 
 def _models(run: Run, friction: float) -> str:
-    """Those whose pressures are subtracted."""
+    """Models whose pressures are subtracted."""
     return " − ".join(LABELS[name] for name in run.pair(friction))
 
 
@@ -88,7 +88,7 @@ def _shear(axes: "Axes", bar: "Axes", run: Run, across: tuple[float, float]) -> 
 
 
 def _largest(run: Run) -> str:
-    """Whose principal shear is drawn, and how large it is by the first model and by it."""
+    """Largest principal shear, which is drawn, of the last model, and of the first one."""
     friction, p0 = run.deciding_friction, run.problem.hertz.peak_pressure
     largest = {
         name: significant(level.stress.extremes["tau1"].value / p0, 3)

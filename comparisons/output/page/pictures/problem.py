@@ -168,7 +168,7 @@ def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) ->
 
 
 def _body_in_words(scene: Scene) -> list[str]:
-    """Its size and support, and what the finite elements' body has besides."""
+    """Size and support of the body, and what the finite elements' body has besides."""
     words = [size_text(scene.body)]
     if scene.coating is not None:
         words.append(f"coating {coating_text(scene.coating)}")

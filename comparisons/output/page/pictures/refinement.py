@@ -30,7 +30,7 @@ SLOPES = {1.0: (0, (1, 1.3)), 2.0: (0, (6, 2))}  # lines by order
 
 
 def judged_figures(run: Run) -> dict[str, list[Figure]]:
-    """Those of the models and of their difference, by quantity and friction coefficient."""
+    """Figures of the models and of their difference, by quantity and friction coefficient."""
     panels: dict[str, list[Figure]] = {}
     judged = [name for name in QUANTITIES if name in run.problem.scene.tolerances]
     known = [f for f in (*run.figures.of(study=contact.NAME), *run.compared) if f.levels]

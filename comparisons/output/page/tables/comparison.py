@@ -47,7 +47,7 @@ def _problem(reference: str) -> str:
 
 
 def capped(run: Run, difference: Figure) -> str:
-    """That the hardness holds the peaks of both models, which makes them equal by itself."""
+    """Note that the hardness holds the peaks of both models, which makes them equal by itself."""
     if difference.against is None:
         return ""
     values = run.figures.of(quantity=difference.quantity, at=difference.at, against=None)
