@@ -1,4 +1,5 @@
-"""What friction changes by moving the surfaces of unlike bodies, against the sliding cylinder."""
+"""What friction changes by moving the surfaces of unlike bodies, against the sliding cylinder; of
+like ones, half-planes move alike, layers and coats do not."""
 
 import json
 from dataclasses import replace
@@ -7,7 +8,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 import scenes
-from scenes import DATA, STEEL, changed, half_plane_at, run_of
+from scenes import DATA, STEEL, changed, finite_elements, half_plane_at, problem, run_of
 
 from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES
@@ -15,8 +16,10 @@ from comparisons.judging import coupling
 from comparisons.judging.coupling import BEYOND_THE_END, SHIFT, Coupling, coupling_of
 from comparisons.judging.effects.catalogue import estimates
 from comparisons.judging.effects.estimates import Shown
+from comparisons.judging.effects.selection import select_effects
+from comparisons.judging.rule import relative_l2
 from comparisons.judging.study import WHY_NOT, Case, Run
-from comparisons.models.level import Solution
+from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 
 DATA_F = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
@@ -272,3 +275,43 @@ class TestEstimate:
     def test_equal_materials_have_no_such_effect(self, wavy_outcome):
         assert wavy_outcome.problem.dundurs_beta == 0.0
         assert estimate(wavy_outcome.problem, ()) is None
+
+
+HALF_WIDTH = 216e-6  # of the smooth contact
+BODIES = {
+    "thin layer": {"body": STEEL | {"thickness": 0.3 * HALF_WIDTH}},
+    "thick layer": {"body": STEEL | {"thickness": 4.0 * HALF_WIDTH}},
+    "hard coating": {
+        "coating": {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
+    },
+    "soft coating": {"coating": {"thickness": 20e-6, "youngs_modulus": 5e9, "poissons_ratio": 0.4}},
+}
+
+
+def like_bodies(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
+    """Like bodies under friction, on one level."""
+    made = {
+        "roller": {"radius": 8.2e-3, **STEEL},
+        "body": STEEL,
+        "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.3},
+        "finite_element": finite_element,
+        "resolution": {"pitch": HALF_WIDTH / 20.0},
+    } | tables
+    posed = problem(made)
+    return posed, finite_elements(posed)
+
+
+def test_like_half_planes_are_moved_alike():
+    _, still = like_bodies({})
+    _, moved = like_bodies({}, coupled=True)
+    apart = np.abs(moved.solution.pressure - still.solution.pressure).max()
+    assert moved.solution.converged and apart < 1e-9 * still.solution.pressure.max()
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_what_layers_and_coats_are_moved_otherwise_is_not_passed_over(name):
+    posed, still = like_bodies(BODIES[name])
+    _, moved = like_bodies(BODIES[name], coupled=True)
+    assert relative_l2(moved.solution.pressure, still.solution.pressure) > 0.003
+    selection = select_effects(posed, Shown(*2 * [posed.hertz.peak_pressure]))
+    assert "normal_tangential_coupling" in selection.added

@@ -1,22 +1,46 @@
-"""An effect is one entry of EFFECTS: what selects, computes, splits and lists has it from there.
+"""An analytic model that is added as an entry of CANDIDATES is judged and its cost is shown; an
+effect is one entry of EFFECTS: what selects, computes, splits and lists has it from there.
 
 The effect is a body that ends ten half-widths below and beside the contact."""
 
 import pytest
-from scenes import STEEL, changed, resolved
+from scenes import STEEL, changed, resolved, run_of
 
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.effects.catalogue import EFFECTS, Effect
+from comparisons.judging.ladder import candidates
+from comparisons.judging.ladder.candidates import CANDIDATES, Candidate
+from comparisons.judging.ladder.cost import methods_of
+from comparisons.judging.ladder.study import RUNGS
 from comparisons.judging.model_error.show import effects_table
 from comparisons.models.problem import Levels
 from comparisons.runs.run import Known, run
 
+LINEAR = {"roller": {"radius": 8e-3, "rigid": True}, "body": STEEL | {"law": "linear"}}
+NARROW = LINEAR | {
+    "load": {"hertz_peak_pressure": 8e9},
+    "finite_element": {"roller_shape": "circle"},
+    "tolerance": {"peak_pressure": 3e-4},
+    "resolution": {"elements": 20},
+}
+
+
+def test_a_new_model_is_one_entry(monkeypatch):
+    circle = Candidate("round", "round", lambda problem, effects, peak: effects & {"exact_circle"})
+    monkeypatch.setattr(candidates, "CANDIDATES", (circle, *CANDIDATES[1:]))
+    run = run_of(NARROW, levels=Levels(2, 2))
+    figure = run.figures.one(study="ladder", source="round", quantity="peak_pressure")
+    half_plane = run.figures.one(study="ladder", source="half_plane", quantity="peak_pressure")
+    assert abs(figure.value) <= figure.numerical < abs(half_plane.value)
+    rows = {row["rung"]: row for row in run.findings["ladder"].table(RUNGS).rows()}
+    assert rows["round"]["model"] == "half-plane with exact circle"
+    assert "half-plane, round" in [model.label for model in methods_of(run.problem)]
+
+
 THIN = {"block": 10.0}
 SIZES = {"peak_pressure": 0.1}  # its estimate
 FEW = Known(levels=Levels(2, effects=2))
-SCENE = {
-    "roller": {"radius": 8e-3, "rigid": True},
-    "body": {**STEEL, "law": "linear"},
+SCENE = LINEAR | {
     "load": {"hertz_peak_pressure": 5e8},
     "resolution": {"elements": 4},
     "tolerance": {"peak_pressure": 0.01},
