@@ -1,4 +1,4 @@
-"""How large an element may be at a point of the block, and how many unknowns follow from it.
+"""Size of an element at a point of the block, and the number of unknowns that follows from it.
 
 The size grows linearly with the distance to the refined ranges, is capped inside the window of a
 stress field, and leaves a few elements across a thin block:

@@ -31,7 +31,7 @@ class Violations:
 
 @dataclass(frozen=True)
 class ActiveSet:
-    """Which nodes are held at p = 0 (`lower`) and at p = H (`upper`); the others are free."""
+    """Nodes that are held at p = 0 (`lower`) and at p = H (`upper`); the others are free."""
 
     lower: np.ndarray
     upper: np.ndarray

@@ -131,7 +131,7 @@ def _onward(
 
 
 def _free(pressure: np.ndarray, constraints: Constraints) -> np.ndarray:
-    """Which nodes (n,) touch and are below the hardness; where there are none, all that touch."""
+    """Nodes (n,) that touch and are below the hardness; where there are none, all that touch."""
     touching = pressure > 0.0
     free = touching & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
     return free if free.any() else touching

@@ -152,7 +152,7 @@ class EquilibriumProblem:
         return ActiveSet.of(pressure, self.constraints.hardness)
 
     def violations(self, state: Equilibrium, active: ActiveSet) -> Violations:
-        """Where sign conditions fail, pressures by more than SET_TOLERANCE of the largest."""
+        """Violations of sign conditions, pressures by more than SET_TOLERANCE of the largest."""
         hardness, pressure = self.constraints.hardness, state.pressure
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
         tensile = active.free & (pressure < -slack)

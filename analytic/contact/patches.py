@@ -1,4 +1,4 @@
-"""Where the bodies touch: contact patches with their edges found between the nodes."""
+"""Contact patches, where the bodies touch, with their edges found between the nodes."""
 
 import numpy as np
 

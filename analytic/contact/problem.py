@@ -33,7 +33,7 @@ class ContactError(ArithmeticError):
 
 @dataclass(frozen=True)
 class Residuals:
-    """How well the contact conditions hold; all dimensionless, zero when exact. The displacement
+    """Residuals of the contact conditions; all dimensionless, zero when exact. The displacement
     scale is the range of Cp/w over all nodes, or EVEN of its largest amount where the surface moves
     as a whole; with the approach prescribed it is the largest amount."""
 

@@ -1,4 +1,4 @@
-"""How the heat of friction divides between two bodies.
+"""Division of the heat of friction between two bodies.
 
 The heat q = mu p V of a sliding contact goes into both. Where they touch both surfaces have one
 temperature, which fixes the flux f into the first at every node; the rest enters the second:

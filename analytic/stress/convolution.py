@@ -23,7 +23,7 @@ _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 @dataclass(frozen=True)
 class StressGrid:
-    """Where stresses are wanted, and under which element."""
+    """Points at which stresses are wanted, and under which element."""
 
     x: np.ndarray  # (m,) [m] columns
     z: np.ndarray  # (k,) [m] levels

@@ -31,7 +31,7 @@ class Dimension:
     example: str
 
     def writing(self) -> str:
-        """How a value may be written, to follow the phrase in a message."""
+        """Forms of writing a value, to follow the phrase in a message."""
         return f': a number in {self.si_unit} or "{self.example}"' if self.si_unit else ""
 
 
@@ -101,7 +101,7 @@ def to_si(entry: object, dimension: Dimension) -> float:
 
 
 def unit_in_si(unit: object, dimension: Dimension) -> float:
-    """How many SI units one `unit` (a string such as "um") is. Raises UnitError as `to_si` does."""
+    """SI units in one `unit` (a string such as "um"). Raises UnitError as `to_si` does."""
     if not isinstance(unit, str):
         raise UnitError(f"is {describe(unit)}")
     return float(_factor(unit.strip(), dimension, unit))

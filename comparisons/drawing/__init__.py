@@ -1,1 +1,1 @@
-"""How pictures look, and how they become part of a page."""
+"""Look of pictures, and how they become part of a page."""

@@ -32,7 +32,7 @@ class Names:
 
 @dataclass(frozen=True)
 class Note:
-    """How to read what stands above; *words* between asterisks are set off."""
+    """Note on how to read what stands above; *words* between asterisks are set off."""
 
     text: str
 

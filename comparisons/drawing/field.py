@@ -130,7 +130,7 @@ def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> n
 
 @cache
 def _stripes(shape: tuple[int, int]) -> np.ndarray:
-    """Which pixels are struck."""
+    """Pixels that are struck."""
     apart, share = STRIPES
     down, across = np.arange(shape[0])[:, None], np.arange(shape[1])
     return ((down + across) / (apart * PIXELS)) % 1.0 < share

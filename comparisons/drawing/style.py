@@ -1,4 +1,4 @@
-"""How every picture of the report looks, and how it becomes part of the page.
+"""Look of every picture of the report, and how it becomes part of the page.
 
 Colours are those of Okabe and Ito, which every kind of colour vision tells apart; each has its own
 line style, for grey printers.
@@ -149,7 +149,7 @@ def stacked(
 
 
 def near(x: np.ndarray, across: tuple[float, float], margin: float) -> np.ndarray:
-    """Which x lie between two ends, or at most `margin` beyond them."""
+    """True where x lies between two ends, or at most `margin` beyond them."""
     return (x >= across[0] - margin) & (x <= across[1] + margin)
 
 

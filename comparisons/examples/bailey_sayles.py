@@ -91,7 +91,7 @@ class PressedSurface:
         return self.z[np.flatnonzero(apart > 0.05 * TAU1)[-1] + 1]
 
     def zone(self, tau1: np.ndarray, level: float) -> np.ndarray:
-        """Where τ1 is above a level, in smooth maxima, and joined with its largest deep one."""
+        """Zone where τ1 is above a level, in smooth maxima, joined with its largest deep one."""
         zones, _ = label(tau1 >= level * TAU1, np.ones((3, 3)))
         return zones == max(zones.flat[np.where(self.z[:, None] >= DEEP, tau1, 0.0).argmax()], 1)
 

@@ -144,7 +144,7 @@ class Figure:
 
     @property
     def reach(self) -> float:
-        """How far it may lie, and the least tolerance at which it holds: |value| and total, over
+        """Farthest it may lie, and the least tolerance at which it holds: |value| and total, over
         the scale."""
         return abs(self.relative) + self.total
 

@@ -44,7 +44,7 @@ class Moved:
 
 @dataclass(frozen=True)
 class Movement:
-    """All of it: rows of what `moved`, how many are the `same`, moved by no more than `rounding`,
+    """Movements: rows of what `moved`, how many are the `same`, moved by no more than `rounding`,
     and are `new`, of which the record knows nothing."""
 
     moved: tuple[Moved, ...]

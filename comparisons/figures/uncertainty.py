@@ -64,7 +64,7 @@ class Uncertainty:
 
 @dataclass(frozen=True)
 class Reading:
-    """How a quantity is read: what is known of its figure beside the values on the levels."""
+    """Reading of a quantity: what is known of its figure beside the values on the levels."""
 
     order: float  # formal, of its convergence
     # [SI] of the figure, or what a difference is over; all else is relative to it
@@ -109,13 +109,13 @@ def of_increments(values: Sequence[float]) -> float:
 
 
 def length_resolution(pitch: float, patches: int) -> float:
-    """How finely the length of contact [m] in a number of patches can be read on a grid. The errors
+    """Resolution of the length of contact [m] in a number of patches on a grid. The errors
     of a patch's two edges may add; those of different patches are independent."""
     return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
 
 
 def peak_resolution(pressure: np.ndarray) -> float:
-    """How finely the largest pressure can be read from nodal pressures (n,), relative to it. Two
+    """Resolution of the largest pressure from nodal pressures (n,), relative to it. Two
     models have their peaks at different points between the nodes. Off by half a pitch, a node is an
     eighth of the second difference too low, and so is an interpolation to other nodes."""
     top = int(np.argmax(pressure))

@@ -255,12 +255,12 @@ def formal_order(name: str, levels: Sequence[Level], problem: Problem) -> float:
 
 
 def edges_read(level: Level) -> float:
-    """How finely the level's length of contact is read [m]."""
+    """Resolution of the level's length of contact [m]."""
     return length_resolution(level.grid.pitch, len(level.patches))
 
 
 def relative_resolution(level: Level, reference: Level) -> float:
-    """How finely the difference of two contact lengths is read, of two models or of an effect,
+    """Resolution of the difference of two contact lengths, of two models or of an effect,
     relative to the reference's: both err."""
     ratio = level.contact_length / reference.contact_length
     return (edges_read(level) + ratio * edges_read(reference)) / reference.contact_length

@@ -1,4 +1,4 @@
-"""Where the body would begin to flow, and whether an elastic half-plane can stand for it.
+"""First flow of the body, and whether an elastic half-plane can stand for it.
 
 In: the half-plane's levels, or the finite elements' without it. Out: figures by friction, against
 first flow, and what an elastic body surely exceeds.
@@ -182,7 +182,7 @@ def solve(solved: Solved, before: Mapping[str, Findings], tasks: object) -> Find
 
 
 def _figures_of_flow(problem: Problem, wholes: tuple[Level, ...]) -> list[Figure]:
-    """How far the whole model flows, and over what slopes."""
+    """Flow of the whole model, and the slopes over which it flows."""
     figures, info = [], problem.surface.info
     for friction, level in zip(problem.scene.load.friction, wholes, strict=False):
         strain = level.plastic_strain

@@ -88,7 +88,7 @@ def _deformation(scene: Scene) -> str:
 
 
 def yielding_text(body: BodySection) -> str:
-    """How a body flows, in one phrase."""
+    """Flow of a body, in one phrase."""
     words = {
         "voce": "by Voce's law",
         "ludwik": "by Ludwik's law",

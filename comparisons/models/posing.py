@@ -1,4 +1,4 @@
-"""How a scene becomes the problem that both models solve (`comparisons.models.problem`): how far
+"""Posing of a scene as the problem that both models solve (`comparisons.models.problem`): how far
 contact may reach, how fine its elements are, and what is refused."""
 
 from collections.abc import Callable

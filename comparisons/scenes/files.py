@@ -1,4 +1,4 @@
-"""Where a scene's file is, and what it says as TOML; the scenes that come with the project."""
+"""Files of scenes: where they are, what they say as TOML; the shipped scenes."""
 
 import os
 import re

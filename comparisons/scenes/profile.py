@@ -165,7 +165,7 @@ class ProfileSection(SceneSection):
 
 @dataclass(frozen=True)
 class Variety:
-    """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
+    """Fields that one variety of profile has: needed ones, others, groups to choose one from."""
 
     title: str
     needed: Sequence[str]

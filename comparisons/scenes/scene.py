@@ -57,7 +57,7 @@ FIELD = re.compile(r"[\w-]+(\.[\w-]+){0,3}", re.ASCII)
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a scene comes from."""
+    """Origin of a scene."""
 
     name: str = "scene"  # of the file, without its ending
     folder: Path = Path(".")  # that paths in it count from

@@ -63,7 +63,7 @@ class KnownTrace:
 
 @dataclass(frozen=True)
 class ProfileInfo:
-    """Where the profile comes from, and its figures after the form was removed."""
+    """Origin of the profile, and its figures after the form was removed."""
 
     source: str  # the file as the scene names it, or the kind of a made profile
     samples: int  # of the whole trace

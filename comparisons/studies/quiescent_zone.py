@@ -101,7 +101,7 @@ def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> dict[str, float]
 
 
 def state_of(dip: Mapping[str, float]) -> str:
-    """Whether there is a quiescent zone, and if not, why."""
+    """State of the quiescent zone: whether there is one, and if not, why."""
     if dip["ratio"] < QUIET:
         return QUIESCENT
     return SMOOTH if dip["level"] < QUIET else BRIDGED
@@ -219,7 +219,7 @@ def zones_of(findings: Findings | None) -> list[Zone]:
 
 
 def facts(run: Run) -> list[tuple[str, str]]:
-    """How many asperities bridge the zone, by model and friction coefficient."""
+    """Numbers of asperities that bridge the zone, by model and friction coefficient."""
     return [
         (
             f"asperities that bridge it, {LABELS[zone.model]}, friction {plain(zone.friction)}",

@@ -142,7 +142,7 @@ class _Bordered:
         self._columns: dict[int, np.ndarray] = {}  # M^-1 of the border of each changed hat
 
     def missing(self, hats: np.ndarray) -> int:
-        """How many borders are still to be found, of hats that joined or left to give hats (k,)."""
+        """Number of borders still to be found, of hats that joined or left to give hats (k,)."""
         changed = np.setxor1d(hats, self._system.hats)
         return sum(hat not in self._columns for hat in changed)
 

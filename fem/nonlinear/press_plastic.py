@@ -318,7 +318,7 @@ class LoadHistory:
         return end, len(residuals)
 
     def _ahead(self, load: float) -> ContactState:
-        """Where to start for a load [N/m]: plastic strain goes on as over the last increment."""
+        """Start for a load [N/m]: plastic strain goes on as over the last increment."""
         (before, former), now, last = self._former, self.body.state, self.state.load
         part = max(0.0, (load - last) / (last - before)) if last != before else 0.0
         strain = now.strain + part * (now.strain - former.strain)

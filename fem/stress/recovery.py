@@ -164,7 +164,7 @@ class Patches:
 
 @_once
 def patches_of(body: MeshedBody) -> Patches:
-    """All of a body."""
+    """Patches of a body."""
     nodes = stress_nodes(body)
     vertex = np.unique(nodes.triangles[:, :3])
     position = np.zeros(len(nodes.point), dtype=np.int64)

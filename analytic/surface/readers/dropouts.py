@@ -79,7 +79,7 @@ class Gap:
 
 
 def gaps(x: np.ndarray) -> list[Gap]:
-    """Where samples are missing in x (n,) [m], strictly ascending. A step is a gap above GAP
+    """Gaps of missing samples in x (n,) [m], strictly ascending. A step is a gap above GAP
     medians of an even trace (nine steps in ten are near the median), above UNEVEN_GAP times what
     nine steps in ten do not exceed of any other."""
     steps = np.diff(x)

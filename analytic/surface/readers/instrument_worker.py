@@ -151,7 +151,7 @@ def spreadsheet(path: str, target: str, wanted: str | None) -> dict:
 
 
 def _most_cells(path: str) -> int:
-    """How many cells the fullest sheet has."""
+    """Number of cells of the fullest sheet."""
     most = 0
     with zipfile.ZipFile(path) as book:
         for name in book.namelist():

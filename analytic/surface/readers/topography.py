@@ -53,7 +53,7 @@ class Topography:
 
 @dataclass(frozen=True)
 class MapLine:
-    """Which line of a map: exactly one of a row, a column and a straight `line`."""
+    """Line of a map: exactly one of a row, a column and a straight `line`."""
 
     row: int | None = None  # counted from 0
     column: int | None = None  # the same

@@ -1,4 +1,4 @@
-"""From a measured profile to a short scene file that `crosscheck run` takes as it is.
+"""Short scene file from a measured profile, which `crosscheck run` takes as it is.
 
 What no trace shows, the roller, the solids and the load, is asked for or stands there as an
 example."""

@@ -1,4 +1,4 @@
-"""How much each effect may change a figure, from dimensionless groups: before it is computed.
+"""Estimates of what each effect may change, from dimensionless groups: before it is computed.
 
     a, p0   half-width and peak pressure of the smooth contact     R     radius of the roller
     t, w    thickness and width of the body                        p     largest pressure

@@ -1,4 +1,4 @@
-"""How much of each figure is owed to the sampling of the trace: an effect that no model has.
+"""Share of each figure that is owed to the trace's sampling: an effect that no model has.
 
 The trace is solved again from every other sample, the even or the odd ones, and the larger change
 estimates what samples between them would change. The half-plane is enough, for both models press

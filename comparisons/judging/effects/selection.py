@@ -1,4 +1,4 @@
-"""Which effects a run computes: those that may move a judged figure by a share of its tolerance.
+"""Effects that a run computes: those that may move a judged figure by a share of its tolerance.
 
 A tolerance that is looser than the usual one selects as the usual one does: what it left out would
 count, and might keep from holding what holds at a tighter one."""

@@ -1,4 +1,4 @@
-"""Which model suffices: the cheapest whose every judged error holds against the whole model.
+"""Model that suffices: the cheapest whose every judged error holds against the whole model.
 
 In: the error budget of a finished comparison, whose finite elements are solved already. Out: a
 judged figure by model, quantity and friction coefficient; what each model took; which one suffices,

@@ -45,7 +45,7 @@ def begin(solved: Solved, tasks: Tasks) -> None:
 
 
 def selection_lines(solved: Solved, tasks: Tasks) -> list[str]:
-    """Which effects a run of both models will compute, and which matter and cannot be, as the
+    """Effects that a run of both models will compute, and which matter and cannot be, as the
     half-plane selects them."""
     if not solved.plan.compares:
         return []

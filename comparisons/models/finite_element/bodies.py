@@ -123,7 +123,7 @@ def bodies_of(
 
 
 def rough_support(problem: Problem, spec: BlockSpec, beyond: float = np.inf) -> Support:
-    """How the rough body is held; where it is unbounded, everywhere `beyond` this part of it."""
+    """Support of the rough body; where it is unbounded, everywhere `beyond` this part of it."""
     scene = problem.scene
     within = (
         beyond * spec.half_width if problem.width is None else np.inf,

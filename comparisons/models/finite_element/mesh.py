@@ -46,7 +46,7 @@ FEWEST_INCREMENTS = 4.0  # of plastic flow, however little it spreads
 
 @dataclass(frozen=True)
 class Refinement:
-    """How fine a level is."""
+    """Fineness of a level."""
 
     pitch: float  # of the pressure elements [m]
     # support an unbounded body at half its width and depth, on the same mesh

@@ -109,7 +109,7 @@ def is_shaped(problem: Problem) -> bool:
 
 
 def disc_support(problem: Problem) -> Support:
-    """How the flat of a disc is held."""
+    """Support of the flat of a disc."""
     roller = problem.scene.roller
     if roller.support is None:
         return Support("bonded", "free")

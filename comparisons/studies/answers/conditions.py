@@ -1,4 +1,4 @@
-"""How well an answer's pressures solve the scene's problem, whoever computed them.
+"""Residuals of an answer's pressures in the scene's problem, whoever computed them.
 
 They are put on the models' own pressure elements, and the contact conditions are evaluated with the
 models' operators: the half-plane's always, the finite elements' where they are linear bodies under

@@ -1,4 +1,4 @@
-"""From a mesh of any code to the pressure along the surface and the stresses below it.
+"""Pressure along the surface and stresses below it from a mesh of any code.
 
 The mesh is that of a body in plane strain: in a plane, or one layer of elements, as CalculiX makes
 of its plane elements. x is the file's first axis. Signs of normal stresses are those of tension."""
@@ -87,7 +87,7 @@ def read_fields(
 
 
 def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[np.ndarray, ...]:
-    """All in ascending order. Raises ValueError for what is no pressure along a surface."""
+    """Answer in ascending order. Raises ValueError for what is no pressure along a surface."""
     order = np.argsort(x, kind="stable")
     x, pressure, *others = (values[order] for values in (x, pressure, *others))
     if len(x) < FEWEST:

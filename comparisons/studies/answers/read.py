@@ -1,4 +1,4 @@
-"""From the files of an answer to its pressures and stresses, or to one line of what is wrong."""
+"""Pressures and stresses from the files of an answer, or one line of what is wrong."""
 
 import hashlib
 from pathlib import Path

@@ -165,7 +165,7 @@ def _figures(case: Case, name: str, answers: tuple[Answer, ...]) -> Iterator[Fig
 
 
 def _reading(answer: Answer, name: str) -> float:
-    """How finely a figure can be read off the answer's points, in its unit."""
+    """Resolution of a figure by the answer's points, in its unit."""
     match name:
         case "contact_length":
             return answer.spacing * float(np.sqrt(len(answer.patches)))

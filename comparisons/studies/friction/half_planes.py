@@ -135,7 +135,7 @@ class SlippedLevel:
 
 
 def last_visit(path: tuple[float, ...]) -> int | None:
-    """Where a path was last at its final load, before; None if never."""
+    """Index at which a path was last at its final load, before; None if never."""
     return next((k for k in reversed(range(len(path) - 1)) if path[k] == path[-1]), None)
 
 

@@ -1,3 +1,3 @@
-"""How far uncertain inputs move the figures, and which of them does (u_input of ASME V&V 20)."""
+"""Changes of the figures by uncertain inputs, and by which of them (u_input of ASME V&V 20)."""
 
 from comparisons.studies.scatter.study import STUDY as STUDY

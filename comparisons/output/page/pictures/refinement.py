@@ -1,4 +1,4 @@
-"""How the solution was refined: errors of the judged figures over the size of the elements, each
+"""Refinement of the solution: errors of the judged figures over the size of the elements, each
 beside its formal order."""
 
 import math

@@ -1,4 +1,4 @@
-"""Why the figures may be trusted: convergence, contact conditions and record.
+"""Evidence for the figures: convergence, contact conditions and record.
 
 In: a run, its figures with their levels. Out: rows of text."""
 
