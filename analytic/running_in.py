@@ -130,9 +130,9 @@ def run_in(
 
 def _check(profile: Profile, constraints: Constraints, positions: np.ndarray, sweeps: int) -> None:
     if constraints.load is None or not np.isfinite(constraints.hardness):
-        raise ValueError("running-in takes a load and a finite hardness")
+        raise ValueError("running-in needs a load and a finite hardness")
     if positions.ndim != 1 or len(positions) == 0:
-        raise ValueError("running-in takes a list of at least one position")
+        raise ValueError("running-in needs a list of at least one position")
     outside = ~((positions > profile.x[0]) & (positions < profile.x[-1]))
     if np.any(outside):
         raise ValueError(
@@ -140,7 +140,7 @@ def _check(profile: Profile, constraints: Constraints, positions: np.ndarray, sw
             f"{profile.x[0]:g} m to {profile.x[-1]:g} m"
         )
     if sweeps < 1:
-        raise ValueError(f"running-in takes at least one sweep, not {sweeps}")
+        raise ValueError(f"running-in needs at least one sweep, not {sweeps}")
 
 
 class _Surface:

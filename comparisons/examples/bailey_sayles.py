@@ -267,7 +267,7 @@ def draw_profiles(drawn: "Figure", surfaces: list[PressedSurface]) -> None:
         for x, height in traces:
             axes.plot(x, height, linewidth=0.6)
         axes.set(title=title, ylabel="height [µm]")
-    axes.set_xlabel("place on the trace [µm]")
+    axes.set_xlabel("position on the trace [µm]")
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -30,7 +30,7 @@ QUANTITIES = COMPARED | {
     "contact_ratio": Quantity("contact length over Hertz 2a"),
     "von_mises_max": Quantity("largest von Mises stress", "Pa"),
     "contact_ratio_extent": Quantity("contact length over its extent"),
-    "peak_position": Quantity("place of the peak pressure", "m"),
+    "peak_position": Quantity("position of the peak pressure", "m"),
     "load_per_length": Quantity("load per length", "N/m"),
     "approach": Quantity("approach from first touch", "m"),
 }

@@ -74,7 +74,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             (not unbounded, "check of the far boundary", "the body's boundaries are its own"),
             (not settings.plastic, "check of the increments of flow", "no body flows"),
         ]
-    steps.append((not compares, "comparison", "it takes both models"))
+    steps.append((not compares, "comparison", "it needs both models"))
     return Plan(
         models,
         coupling,

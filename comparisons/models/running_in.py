@@ -44,7 +44,7 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
     count = profile.length / pitch
     if not FEWEST_HATS <= count <= MOST_ON_TRACE:
         raise SceneError(
-            f"{scene.source}: running_in: takes {count:.2g} pressure elements of {pitch:.3g} m on "
+            f"{scene.source}: running_in: needs {count:.2g} pressure elements of {pitch:.3g} m on "
             f"a trace of {profile.length:.3g} m; allowed are {FEWEST_HATS} to "
             f"{MOST_ON_TRACE:g}, by another load or trace"
         )

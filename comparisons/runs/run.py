@@ -186,7 +186,7 @@ def _problem(
         return problem_of(scene, surface, levels=levels)
     if "finite_element" not in models:
         raise SceneError(
-            f"{scene.source}: load.approach: takes finite elements to find its load; "
+            f"{scene.source}: load.approach: needs finite elements to find its load; "
             "allowed with the half-plane alone is per_length or hertz_peak_pressure"
         )
     tasks.add("approach", _approached, scene, surface, levels, urgency=AT_ONCE)

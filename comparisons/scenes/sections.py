@@ -275,7 +275,7 @@ class LoadSection(SceneSection):
     )
     position: Annotated[float, Number(LENGTH)] | None = optional(
         "of the roller's centre on the trace; the middle by default, on a periodic "
-        "surface half a period from its lowest place"
+        "surface half a period from its lowest point"
     )
     coupled: StrictBool = optional("sliding traction moves the surfaces in both models", False)
 

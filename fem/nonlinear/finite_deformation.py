@@ -178,7 +178,7 @@ class FiniteContact:
                 break
         else:
             if np.isfinite(hardness):
-                raise FemError(f"the cap on the pressure did not settle in {MOST_CAPS} solutions")
+                raise FemError(f"the largest pressure did not settle in {MOST_CAPS} solutions")
         # what the last solution's stretch changes of these is none of its residual
         return self.deformed(
             replace(solution, state=replace(solution.state, pressure=state.pressure))

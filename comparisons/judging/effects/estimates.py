@@ -296,9 +296,9 @@ def why_no_flow(problem: Problem) -> str | None:
         known = typical_shears(scene.body) and not scene.body.hardness  # which stands for flow
         return "the body has no yield stress" + (f", {flow_of(scene.body)}" if known else "")
     if scene.load.kind == "approach":
-        return "it takes no prescribed approach"
+        return "it needs a load in place of load.approach"
     if scene.finite_element.deformation == "finite":
-        return 'it takes finite_element.deformation = "linear"'
+        return 'it needs finite_element.deformation = "linear"'
     return None
 
 

@@ -171,7 +171,7 @@ def problem_of_approach(
     if scene.finite_element.coupled and len(scene.load.friction) > 1:
         raise SceneError(
             f"{scene.source}: load.friction: has {len(scene.load.friction)} coefficients, each of "
-            "which takes another load for load.approach; allowed is one, or per_length"
+            "which needs another load for load.approach; allowed is one, or per_length"
         )
     body_cache, approach = BodyCache(), scene.load.value
 

@@ -93,11 +93,11 @@ def checked(x: np.ndarray, pressure: np.ndarray, *others: np.ndarray) -> tuple[n
     if len(x) < FEWEST:
         raise ValueError(f"has {len(x)} points; allowed are {FEWEST} or more along the contact")
     if not max(np.abs(x).max(), np.abs(pressure).max()) <= LARGEST:
-        raise ValueError(f"holds a place or a pressure beyond {LARGEST:g} in SI units")
+        raise ValueError(f"holds an x or a pressure beyond {LARGEST:g} in SI units")
     apart = np.diff(x) > max(SMALLEST, SAME_PLACE * np.ptp(x))
     if not np.all(apart):
         twice = x[:-1][~apart][0]
-        raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each place")
+        raise ValueError(f"has x = {twice:g} m twice; allowed is one pressure at each x")
     if not np.any(pressure):
         raise ValueError("has no pressure but 0; allowed is that of a contact")
     return x, pressure, *others

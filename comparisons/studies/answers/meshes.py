@@ -115,7 +115,7 @@ if __name__ == "__main__":
         source, target, *steps = sys.argv[1:]
         _write_faces(Path(source), Path(target), int(steps[0]) if steps else None)
     except ImportError as error:
-        sys.exit(f"takes {error.name}, which is not installed; {INSTALL}")
+        sys.exit(f"needs {error.name}, which is not installed; {INSTALL}")
     except Exception as error:  # of a damaged file libraries may say anything
         causes = [record.getMessage() for record in logged.buffer] or [str(error)]
         said = str(error) if "allowed" in str(error) else f"cannot be read ({causes[0]})"

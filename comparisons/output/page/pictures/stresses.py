@@ -262,7 +262,7 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
         drawn,
         f"Principal shear over depth through {words}. Largest: {'; '.join(said)}.",
         f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
-        f"section of the smooth contact at the same place.{near} Largest: {'; '.join(said)}.",
+        f"section of the smooth contact at the same x.{near} Largest: {'; '.join(said)}.",
     )
 
 

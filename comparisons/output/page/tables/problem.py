@@ -86,7 +86,7 @@ def _geometry(scene: Scene, surface: SceneSurface) -> Rows:
         return [*rows, ("surface", "smooth")]
     rows += _profile(surface.info)
     if not scene.periodic:
-        rows.append(("place of the roller on the trace", as_written(surface.position, "m")))
+        rows.append(("position of the roller on the trace", as_written(surface.position, "m")))
     return rows
 
 
