@@ -10,7 +10,6 @@ from analytic.material import Law
 from comparisons.judging.effects.catalogue import LAW as EFFECT
 from comparisons.judging.effects.laws import open_laws, point_of
 from comparisons.judging.rule import values_of
-from comparisons.judging.study import Run
 from comparisons.scenes.materials import measured_solids, scaled_law, solids
 
 STRAIN = {"deformation": "finite"}
@@ -117,17 +116,14 @@ def test_a_soft_body_lies_between_the_laws_of_rubbers():
     assert [kind.name for kind in law.probes.values()] == ["hencky"]  # the whole is the other
 
 
-def outcome(body: dict) -> Run:
-    tables = scene(body, resolution={"levels": 2}, budget={"time": 20.0})
-    return run_of(tables, tolerance={"peak_pressure": 0.015})
-
-
 def test_a_named_solid_decides_what_moduli_leave_open():
     """The error of a measured steel lies in the range of those that its moduli allow for; and it is
     known better."""
     steel = solids()["rail steel"]
     moduli = {name: steel.values[name].value for name in STEEL}
-    named, bare = outcome({"material": "rail steel"}), outcome(moduli)
+    asked = {"resolution": {"levels": 2}, "budget": {"time": 20.0}}
+    asked["tolerance"] = {"peak_pressure": 0.015}
+    named, bare = (run_of(scene(b, **asked)) for b in ({"material": "rail steel"}, moduli))
     sure, open_ = (done.figures.one(study="model_error", **PEAK) for done in (named, bare))
     low, high = (open_.value + sign * open_.unknown[EFFECT] for sign in (-1.0, 1.0))
     assert low < sure.value < high and high - low > 4.0 * sure.total
