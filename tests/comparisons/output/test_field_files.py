@@ -2,14 +2,13 @@
 
 import base64
 import json
-import subprocess
-import sys
 from functools import partial
 
 import meshio
 import numpy as np
 import pytest
 import pyvista
+from scenes import python
 
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
@@ -46,8 +45,7 @@ def field(outcome, request):
 
 def quietly(program: str, *arguments: object) -> str:
     """What a program prints in a process that any warning ends."""
-    command = [sys.executable, "-W", "error", "-c", program, *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = python("-W", "error", "-c", program, *arguments)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
     return done.stdout
 

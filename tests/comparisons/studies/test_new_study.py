@@ -7,13 +7,11 @@ import csv
 import json
 import math
 import os
-import subprocess
-import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from scenes import PROJECT
+from scenes import PROJECT, python
 
 from comparisons.output.result import read_result
 
@@ -111,14 +109,8 @@ def folder(tmp_path_factory) -> Path:
 
 def command(folder: Path, *arguments: str, status: int = 0) -> str:
     """What crosscheck prints, with the study."""
-    environment = os.environ | {"PYTHONPATH": f"{PROJECT}{os.pathsep}{folder}"}
-    done = subprocess.run(
-        [sys.executable, "-c", WITH_IT, *arguments],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-    )
+    found = f"{PROJECT}{os.pathsep}{folder}"
+    done = python("-c", WITH_IT, *arguments, cwd=folder, PYTHONPATH=found)
     assert done.returncode == status, done.stderr
     return done.stdout + done.stderr
 
