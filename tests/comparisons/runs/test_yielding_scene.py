@@ -123,17 +123,6 @@ def test_increments_have_an_uncertainty_of_their_own(outcome):
     assert shown.uncertainty == stated["peak_pressure"].uncertainty
 
 
-def test_flow_asks_for_nothing_but_a_yield_stress():
-    """With friction, which moves the contact then."""
-    tables = {name: TABLES[name] for name in ("roller", "load")} | {
-        "body": {**STEEL, "yield_stress": YIELD_STRESS},
-        "finite_element": {"plastic": True},
-    }
-    still = resolved(tables)
-    slides = resolved(changed(tables, load={"friction": 0.2}))
-    assert not still.finite_element.coupled and slides.finite_element.coupled
-
-
 def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path, monkeypatch):
     monkeypatch.setattr("fem.nonlinear.newton.MOST_LINEAR_CONTACTS", 1)
     monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_SINKING", 0)
