@@ -114,7 +114,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _carried_out(arguments: Sequence[str]) -> int:
-    """What the command returns; its own handling of errors would be typer's."""
+    """Status that the command returns; its own handling of errors would be typer's."""
     group, words = get_command(app), list(arguments) or ["--help"]
     try:
         with group.make_context("crosscheck", words, obj=list(arguments)) as context:

@@ -1,4 +1,4 @@
-"""What several commands take, and what the shell may complete."""
+"""Arguments that several commands take, and words that the shell may complete."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -67,7 +67,7 @@ def complete_scenes(incomplete: str) -> list[str]:
 
 
 def completing(module: str, name: str) -> Callable[[str], list[str]]:
-    """What begins so of the names that a module, imported then, has or returns under `name`."""
+    """Names that begin so, of those that a module, imported then, has or returns under `name`."""
 
     def complete(incomplete: str) -> list[str]:
         names = getattr(import_module(module), name)

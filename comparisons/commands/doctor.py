@@ -28,7 +28,7 @@ REMEDY = "./crosscheck installs everything anew once its folder .venv is removed
 
 @dataclass(frozen=True)
 class Finding:
-    """Whether an item works, and its version or what is wrong."""
+    """Finding on an item: whether it works, and its version or what is wrong."""
 
     name: str
     ok: bool

@@ -1,5 +1,5 @@
-"""Of finished runs: `crosscheck report` shows them again, `rerun` repeats one from its own record,
-`table` puts many into one table."""
+"""Commands on finished runs: `crosscheck report` shows them again, `rerun` repeats one from its own
+record, `table` puts many into one table."""
 
 from pathlib import Path
 from typing import Annotated

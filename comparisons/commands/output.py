@@ -1,4 +1,4 @@
-"""What commands print, and where: results to standard output, progress to standard error."""
+"""Output of commands, and where: results to standard output, progress to standard error."""
 
 import json
 import math

@@ -136,7 +136,7 @@ def _set_size(name: str, scene: Scene, value: float) -> Changes:
 
 
 def _set_radius(scene: Scene, value: float) -> Changes:
-    """By the load: a = 2 p0 R / E*."""
+    """Set the load: a = 2 p0 R / E*."""
     if not scene.roller.rigid:
         raise SceneError(
             f"{scene.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
@@ -157,7 +157,7 @@ def _set_friction(scene: Scene, value: float) -> Changes:
 
 
 def _set_hardness(scene: Scene, value: float) -> Changes:
-    """By hardness, which caps the half-plane's pressure, and yield stress; their ratio stays."""
+    """Set hardness, the half-plane's largest pressure, and yield stress; their ratio stays."""
     body = scene.body
     if body.hardness is None or body.yield_stress is None:
         raise SceneError(
@@ -199,7 +199,7 @@ def _scaled(profile: ProfileSection, names: Iterable[str], factor: float) -> Cha
 
 
 def _set_wavelength(scene: Scene, value: float) -> Changes:
-    """By scaling the profile: x and heights by one factor, so that slopes stay."""
+    """Scale the profile: x and heights by one factor, so that slopes stay."""
     profile, position = _made_profile(scene, "wavelength_over_a"), scene.load.position
     factor = value * _half_width(scene) / _shortest(profile)
     changes = _scaled(profile, (*WAVES[profile.kind], *HEIGHTS[profile.kind], *FILTERS), factor)
@@ -218,8 +218,8 @@ def _coating(problem: Problem) -> float | None:
 
 
 def _modulus_ratio(section: str, problem: Problem) -> float | None:
-    """Of the plane strain moduli, which contacts know of; that of Young's where bodies are alike in
-    Poisson's ratio."""
+    """Ratio of plane strain moduli, which contacts know of; that of Young's where bodies are alike
+    in Poisson's ratio."""
     other, body = problem.scene.elastic_sections.get(section), problem.scene.body.material
     return other and other.material.plane_strain_modulus / body.plane_strain_modulus
 

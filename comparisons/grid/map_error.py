@@ -28,7 +28,7 @@ SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusi
 
 
 def solve_point(point: Point) -> dict:
-    """What is found at a point of a map: the model error of the half-plane in each quantity under
+    """Results at a point of a map: the model error of the half-plane in each quantity under
     the largest friction, and both models' values, in the digits that do not depend on the
     machine."""
     scene = point.scene

@@ -66,7 +66,7 @@ def places(axis: dict, *values: float) -> np.ndarray:
 
 
 def scaled(error: np.ndarray | float, content: dict) -> np.ndarray | float:
-    """As a map is drawn: nearly logarithmic for either sign, straight up to what its groups say."""
+    """Error on a map's scale: nearly logarithmic for either sign, straight as its groups say."""
     straight = max(GROUPS[content[axis]["group"]].straight for axis in "xy")
     return np.arcsinh(np.asarray(error) / straight)
 

@@ -63,7 +63,7 @@ def mark_of(content: dict, problem: Problem) -> "Mark":
 
 
 def unlike(content: dict, problem: Problem) -> str:
-    """In what a scene that `mark_of` takes differs from the map's, its groups apart, or nothing."""
+    """Differences of a scene that `mark_of` takes from the map's, its groups apart, or nothing."""
     its, maps = traits(problem), traits(problem_of(Scene.of(content["scene"], Origin("map"))))
     grouped = {GROUP_OF.get(name): name for name in its}
     for axis in "xy":
@@ -81,8 +81,8 @@ def unlike(content: dict, problem: Problem) -> str:
 
 
 def traits(problem: Problem) -> dict[str, float | str]:
-    """What all points of a map have in common, and another scene need not. The roller's modulus is
-    over the body's, the coating's ratio Poisson's."""
+    """Traits that all points of a map have in common, and another scene need not. The roller's
+    modulus is over the body's, the coating's ratio Poisson's."""
     scene, body = problem.scene, problem.scene.body
     stresses = any(QUANTITIES[name].needs_stress for name in scene.tolerances)
     rough = scene.profile is not None

@@ -118,7 +118,7 @@ def failures(points: Iterable[dict]) -> Counter[str]:
 
 @dataclass(frozen=True, repr=False)
 class Grid(Printed):
-    """What is found at all points: `content` of its JSON file, in `folder` if it was kept."""
+    """Results at all points: `content` of its JSON file, in `folder` if it was kept."""
 
     FILES: ClassVar[tuple[str, ...]]  # that there may be, the JSON file first
 
@@ -137,7 +137,7 @@ class Grid(Printed):
 
     @abstractmethod
     def pictures(self) -> "dict[str, Callable[[], Figure]]":
-        """What draws each picture, by name."""
+        """Functions that draw each picture, by name."""
 
     def texts(self) -> dict[str, str]:
         """Contents of the other files, by name."""

@@ -113,8 +113,8 @@ def _error(quantity: str, point: dict) -> str:
 
 
 def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
-    """By what names a figure, friction None where it is swept: number of values, mean, standard
-    deviation of the sample, smallest and largest."""
+    """Scatter by what names a figure, friction None where it is swept: number of values, mean,
+    standard deviation of the sample, smallest and largest."""
     order = {name: number for number, name in enumerate(QUANTITIES)}
     swept = {"friction": None} if over_friction else {}
     known = [row | swept for point in points for row in point["rows"] if _is_scattered(row)]
@@ -138,7 +138,7 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
 
 
 def _is_scattered(row: Row) -> bool:
-    """Whether a row is a figure by a model or a model error, of what models are compared by."""
+    """True where a row is a figure by a model or a model error, of what models are compared by."""
     study, model = row["study"], row["source"] in MODELS
     if study in (PARTIAL_SLIP.name, HEAT.name):
         return model and row["against"] is None

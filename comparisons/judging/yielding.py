@@ -270,7 +270,7 @@ def flow_sentence(run: Run) -> str:
     largest += f"flow{where} (Y = {stress}{third})"
     if flow.flow == "cap":
         share = percent(flow.there("share_at_hardness"))
-        return f"flow is the cap alone, at {share} of the contact; {largest}"
+        return f"flow is the hardness alone, at {share} of the contact; {largest}"
     return f"{FLOW_IN_WORDS[flow.flow]}; {largest}"
 
 

@@ -59,8 +59,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             if section.STEP is not None
         ),
         (no_traction, "stresses of the sliding traction", "there is no friction"),
-        (no_statistics, "statistics of rough contact", "they take the half-plane"),
-        (scene.body.hardness is None, "hardness cap", "the body has no hardness"),
+        (no_statistics, "statistics of rough contact", "they need the half-plane"),
+        (scene.body.hardness is None, "hardness", "the body has no hardness"),
     ]
     if half_plane:
         steps.append((not coupling, "coupling", uncoupled[-1]))

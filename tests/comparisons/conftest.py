@@ -80,7 +80,7 @@ def by_asperity(problem: Problem, largest: Extremum) -> np.ndarray:
 def levels_of(
     problem: Problem, name: str, pitch: float, window: Window | None
 ) -> dict[float, Level]:
-    """By friction coefficient, of one contact."""
+    """Levels of one contact, by friction coefficient."""
     modulus = problem.modulus * (STIFFER if name == "finite_element" else 1.0)
     grid = problem.grid(pitch)
     operator = HalfPlane(grid.count, pitch, modulus)

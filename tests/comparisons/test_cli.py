@@ -89,7 +89,7 @@ def test_the_outcome_decides_the_status(solver, status):
 
 
 def interrupted_import() -> ImportError:
-    """What Ctrl-C becomes while a compiled module starts."""
+    """Error that Ctrl-C becomes while a compiled module starts."""
     error = ImportError("initialization failed")
     error.__cause__ = KeyboardInterrupt()
     return error

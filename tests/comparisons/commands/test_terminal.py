@@ -1,4 +1,4 @@
-"""What a command finds around it: a terminal or a pipe, modules in the working folder, variables,
+"""Surroundings of a command: a terminal or a pipe, modules in the working folder, variables,
 strange titles; and what a shell may complete."""
 
 import io
@@ -35,7 +35,7 @@ def environment(**more: str) -> dict[str, str]:
 
 
 def in_terminal(folder: Path, **more: str) -> str:
-    """What a run says where both its outputs go to a terminal."""
+    """Text of a run where both its outputs go to a terminal."""
     ours, theirs = pty.openpty()
     command = [sys.executable, "-c", COMMAND]
     said = b""
@@ -52,7 +52,7 @@ def in_terminal(folder: Path, **more: str) -> str:
 
 
 def in_pipe(*command: str, folder: Path, **more: str) -> str:
-    """What it says where both its outputs are piped: nothing to standard error."""
+    """Text of a run where both its outputs are piped: nothing to standard error."""
     done = python(*command, cwd=folder, env=environment(**more))
     assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
@@ -65,7 +65,7 @@ def folder(tmp_path) -> Path:
 
 
 def coloured(said: str) -> bool:
-    """Whether a colour is set; bold and moves of the cursor are none."""
+    """True where a colour is set; bold and moves of the cursor are none."""
     codes = ";".join(re.findall(r"\x1b\[([\d;]*)m", said)).split(";")
     return any(code in ("38", "48") or re.fullmatch("[349][0-7]", code) for code in codes)
 
@@ -84,7 +84,7 @@ def test_a_pipe_gets_neither(folder, more):
 
 
 def answer(line: str) -> list[str]:
-    """What the shell is told that the last word of a line may become."""
+    """Words that the shell is told the last one of a line may become."""
     asked = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
     asked["_CROSSCHECK_COMPLETE"] = "complete_bash"
     return in_pipe("-m", "comparisons.cli", folder=PROJECT, **asked).split()

@@ -21,7 +21,7 @@ def fill(folder, names, text="new"):
 
 
 def fill_as_run(folder, names, text="new"):
-    """The same with the result of a run that wrote them."""
+    """Fill a folder with the result of a run that wrote them."""
     fill(folder, names, text)
     result = {"schema": 3, "record": {"files": ["result.json", *names]}, "text": text}
     (folder / "result.json").write_text(json.dumps(result))
@@ -100,7 +100,7 @@ def test_a_folder_without_permission_is_refused(unprivileged):
 
 
 def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
-    """As of a mount point, where a rename from outside would fail as well."""
+    """Folder like a mount point, where a rename from outside would fail as well."""
     out = unprivileged / "results"
     out.mkdir()
     unprivileged.chmod(0o500)

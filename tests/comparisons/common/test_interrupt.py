@@ -138,7 +138,7 @@ def test_in_the_middle_of_a_factorisation(folder, interrupt):
 
 
 def test_in_the_middle_of_factorisations_side_by_side(folder):
-    """What each process had finished is not computed again."""
+    """Results that each process had finished are not computed again."""
     process = reached(folder, SIDE_BY_SIDE + STUCK.format(call=2))
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=PATIENT)

@@ -101,7 +101,7 @@ def dies(here: Here, path: Path, lives: int = 0) -> str:
 
 
 def outlasts(here: Here, path: Path) -> None:
-    """What writes a file and then dies."""
+    """Write a file and then die."""
     while not path.exists():
         time.sleep(0.01)
     time.sleep(1.0)
@@ -264,7 +264,7 @@ class TestExecutor:
 
 
 def elsewhere(work, *args):
-    """What a fresh process answers."""
+    """Result of a fresh process."""
     with Tasks(ProcessWorker) as tasks:
         tasks.add("work", called, work, *args)
         return tasks.result("work")

@@ -29,7 +29,7 @@ def of_pressures(run: Solution, levels: tuple, factors: tuple[float, ...]) -> So
 
 
 def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Run):
-    """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
+    """The order of 1/2 gives 2.4 times. Another level stands in for the far-boundary level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
     run = Solution("finite_element", levels, {"domain": levels[1:2]})
@@ -98,7 +98,7 @@ def test_what_either_model_repeats_counts_in_their_difference():
 
 
 def test_bounds_of_several_levels_add(smooth_outcome: Run):
-    """Of two models by both residuals; of a difference of lengths by what is read of both."""
+    """Two models add both residuals; a difference of lengths adds what is read of both."""
     one, other = (run.finest for run in smooth_outcome.runs.values())
     solutions = one.solution, other.solution
     assert iteration(*solutions) == pytest.approx(sum(map(iteration, solutions)))
@@ -118,7 +118,7 @@ def test_a_peak_between_nodes_is_read_within_its_resolution(offset):
 
 
 def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: Run):
-    """What both models leave out is in both figures, once each, and not in their difference."""
+    """Errors that both models share are in both figures, once each, and not in their difference."""
     problem = smooth_outcome.problem
 
     def open_ones(sizes, others):

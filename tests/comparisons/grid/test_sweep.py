@@ -229,7 +229,7 @@ def test_a_wrong_value_after_a_right_one_solves_and_writes_nothing(
 def test_points_that_fail_are_told_with_the_status_of_solvers(
     made, tmp_path, capsys, monkeypatch, error, status
 ):
-    """What is no scene there is no failure of theirs."""
+    """A point without a scene is no failure of theirs."""
 
     def solved(point):
         if point.at["roller.radius"] == 8e-3:
@@ -292,7 +292,7 @@ def test_stresses_as_arrays():
 
 
 def test_figures_of_further_studies_are_swept():
-    """What sticks of a smooth contact falls with the load as Cattaneo and Mindlin have it."""
+    """The length that sticks of a smooth contact falls as by Cattaneo and Mindlin."""
     tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "partial_slip": {"load": 0.5}}
     tables["load"] = {"per_length": 1e6, "friction": [0.3]}
     swept = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)

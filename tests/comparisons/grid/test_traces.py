@@ -61,7 +61,7 @@ def saved(out: Path) -> dict[str, int]:
 def test_traces_on_a_cluster_killed_and_begun_again_make_the_same_table(
     scene, tmp_path, started, until, capsys
 ):
-    """What is solved is not solved again; what is no trace is a line, and the others go on."""
+    """Solved points are not solved again; a file without a trace is a line, others go on."""
     distributed = pytest.importorskip(
         "distributed", reason="Dask is not installed: pip install distributed"
     )

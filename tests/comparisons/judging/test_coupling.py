@@ -1,4 +1,4 @@
-"""What friction changes by moving the surfaces of unlike bodies, against the sliding cylinder; of
+"""Changes by friction that moves the surfaces of unlike bodies, against the sliding cylinder; of
 like ones, half-planes move alike, layers and coats do not."""
 
 import json
@@ -57,7 +57,7 @@ def half_plane_of(problem) -> Solution:
 
 
 def change_of(problem: Problem, levels: Solution) -> Coupling:
-    """What coupling changes in a solved half-plane."""
+    """Changes by coupling in a solved half-plane."""
     return coupling_of(Case(replace(problem, window=None), {"half_plane": levels}), no_progress)
 
 
@@ -74,7 +74,7 @@ def plain(outcome: Run, friction: float) -> dict[str, float]:
 
 
 def change(outcome: Run, friction: float) -> dict[str, tuple[float | None, float | None]]:
-    """By quantity, the figure with coupling and its change."""
+    """The figure with coupling and its change, by quantity."""
     known = outcome.figures.of(study=coupling.NAME, friction=friction)
     pairs = {figure.quantity: (None, None) for figure in known}
     for figure in known:

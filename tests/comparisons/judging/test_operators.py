@@ -51,7 +51,7 @@ def test_exact_layers(case):
 
 @pytest.mark.parametrize("mean_pressure", [1e8, 3e8, 6e8], ids=["a third", "two thirds", "closed"])
 def test_westergaard_s_wave(mean_pressure):
-    """By the operator of a period, as the same rung of any other surface: of second order."""
+    """The operator of a period, which is the model of any other surface, is of second order."""
     posed = problem(Scene.read("periodic").tables | {"load": {"mean_pressure": mean_pressure}})
     exact, off = closed_form(posed), []
     for pitch in (posed.pitches[0], posed.pitches[2]):

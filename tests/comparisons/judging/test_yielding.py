@@ -1,4 +1,4 @@
-"""What an elastic half-plane asks of the body, and where it cannot stand for it."""
+"""Demands of an elastic half-plane on the body, and where it cannot stand for it."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def outcome_of(peak=1e9, friction=0.0, stress=True, **body):
 
 
 def items(outcome):
-    """Of its part of the page, after the pictures that it has none of."""
+    """Items of its part of the page, after the pictures that it has none of."""
     [block] = parts_of(STUDY, outcome)
     return block.items[1:]
 
@@ -97,7 +97,7 @@ def test_a_rough_body_at_its_cap(wavy_outcome, finish):
     share = (pressure > 1.2e9 * (1.0 - 1e-12)).sum() / (pressure > 0.0).sum()
     assert 0.05 < share < 1.0
     assert low.data("yield").there("share_at_hardness") == pytest.approx(share, rel=1e-12)
-    assert flow_sentence(low).startswith("flow is the cap alone")
+    assert flow_sentence(low).startswith("flow is the hardness alone")
     assert low.data("yield").beyond_doubt == ""
     assert "only roughly: 2.4 Y to 3 Y, here 960 MPa to 1.2 GPa, fit" in note(low)
 

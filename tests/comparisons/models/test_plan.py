@@ -1,4 +1,4 @@
-"""What is said of a run before anything is solved, against what the run then takes; unknowns over
+"""Forecast of a run before anything is solved, against what the run then takes; unknowns over
 all shipped scenes."""
 
 from dataclasses import replace
@@ -92,7 +92,7 @@ def test_a_smooth_body_has_no_waves():
     [("flow-turned", (2.8, 10.7)), ("flow-flank", (1.8, 6.5)), ("ground-unrun", (35.8, 209.0))],
 )
 def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
-    """As measured, in processor seconds of a busy machine."""
+    """Times were measured in processor seconds of a busy machine."""
     if name == "ground-unrun":
         scene = Scene.read(name).changed("body.yield_stress", 2e9).changed("load.friction", 0.1)
         scene = scene.changed("finite_element.plastic", True)
@@ -106,7 +106,7 @@ def test_flow_on_rough_metals_takes_half_to_twice_as_long(name, seconds):
 
 @pytest.mark.parametrize("name", scene_names())
 def test_unknowns_are_those_of_the_meshes(name):
-    """Of the first level, as if contact were all over the extent; with quadratic elements."""
+    """Unknowns of level 1, as if contact were all over the extent; with quadratic elements."""
     scene = Scene.read(name)
     problem = problem_of(scene.unchecked({"finite_element.element": "P2"}))
     refinement, patches = Refinement(problem.pitches[0]), np.array([problem.extent])

@@ -1,4 +1,4 @@
-"""What both models solve: the same mesh whatever the last bits of a computed surface. The points
+"""Problem of both models: the same mesh whatever the last bits of a computed surface. The points
 of the fields: what is asked for, and what must not depend on it."""
 
 from dataclasses import replace
@@ -62,7 +62,7 @@ def test_pitches_halve_and_the_finest_is_a_fortieth_of_the_shortest_wave():
 
 
 def test_asperities_end_between_peaks_of_pressure():
-    """Of a wave in its troughs; a smooth body is one, and waves too low to stand out are none."""
+    """Those of a wave end in its troughs; a smooth body is one, waves too low are none."""
     wave = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.5e-6}
     rough = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
     posed = problem(rough | {"profile": wave})

@@ -44,14 +44,14 @@ def field(outcome, request):
 
 
 def quietly(program: str, *arguments: object) -> str:
-    """What a program prints in a process that any warning ends."""
+    """Output of a program in a process that any warning ends."""
     done = python("-W", "error", "-c", program, *arguments)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
     return done.stdout
 
 
 def names(field) -> list[str]:
-    """Of the arrays: on the finite elements' mesh there are more."""
+    """Names of the arrays: on the finite elements' mesh there are more."""
     named = [STRESSES]
     if field.cells.shape[1] == 3:  # triangles
         beside = "half_plane", "difference"

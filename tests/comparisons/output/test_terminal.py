@@ -21,7 +21,7 @@ UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9,
 
 
 def printed(outcome: Run, width: int = 80, encoding: str = "utf-8", details: bool = True) -> str:
-    """What goes into a file or a pipe."""
+    """Text that goes into a file or a pipe."""
     stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
     Console(file=stream, width=width).print(summary(outcome, details))
     stream.seek(0)

@@ -152,7 +152,7 @@ LAW = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
 
 
 def keys() -> tuple[str, str]:
-    """Of levels, and of a map."""
+    """Keys of levels, and of a map."""
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed, make_plan(posed, ("half_plane",))).key()

@@ -38,7 +38,7 @@ pytestmark = pytest.mark.usefixtures("undrawn")
 
 @pytest.fixture(scope="module")
 def said() -> list[str]:
-    """What the run of `smooth` says."""
+    """Messages of the run of `smooth`."""
     return []
 
 
@@ -53,7 +53,7 @@ def figures(outcome) -> dict:
 
 
 def values(outcome, model, friction=0.0) -> dict[str, float]:
-    """Of a model, by quantity."""
+    """Values of a model, by quantity."""
     known = outcome.figures.of(study="contact", source=model, friction=friction)
     return {figure.quantity: figure.value for figure in known}
 
@@ -264,7 +264,7 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
 
 def test_plan_says_what_it_leaves_out():
     plan = make_plan(problem_of(Scene.read("smooth")), MODELS)
-    assert {"refinement under asperities", "hardness cap"} <= plan.skipped.keys()
+    assert {"refinement under asperities", "hardness"} <= plan.skipped.keys()
     sliding = make_plan(problem_of(Scene.read("ground-unrun")), MODELS)
     assert "refinement under asperities" not in sliding.skipped
 

@@ -32,7 +32,7 @@ CASES = {
 
 @pytest.fixture(scope="module", params=CASES)
 def runs(request, tmp_path_factory):
-    """Of all coefficients, and of each alone; and how far figures may be apart."""
+    """Runs of all coefficients, and of each alone; and how far figures may be apart."""
     sections, apart = CASES[request.param]
     tables = changed(TABLES, **sections)
     together = run(resolved(tables), tmp_path_factory.mktemp("several") / "out", MODELS)

@@ -145,7 +145,7 @@ def deep(friction=0.0):
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_contact_spreads_beyond_one_and_a_half_half_widths(friction):
-    """As far as flow takes it: pressures end before the grid does."""
+    """Contact spreads as far as flow takes it: pressures end before the grid does."""
     posed = problem(deep(friction))
     level, a = finite_elements(posed), posed.hertz.half_width
     assert level.contact_length > 3.1 * a

@@ -53,7 +53,7 @@ def quick(name: str, effects: bool) -> Scene:
 
 @pytest.fixture
 def unrun():
-    """With tolerances that the third level meets."""
+    """Run with tolerances that the third level meets."""
     scene = quick("ground-unrun", effects=False)
     wide = scene.tolerances | {"contact_length": 0.05, "tau1_max": 0.05}
     return run_of(judging(scene, wide), levels=FEW)
@@ -83,7 +83,7 @@ class TestGroundUnrun:
         assert differences[0] > differences[1] > differences[2]
 
     def test_asperities_carry_at_least_twice_the_smooth_shear_near_the_surface(self, unrun):
-        """What Bailey and Sayles found on unrun ground surfaces, by both models."""
+        """Bailey and Sayles found this on unrun ground surfaces, by both models."""
         hertz = unrun.problem.hertz
         for model in MODELS:
             known = unrun.figures.of(study="contact", source=model)

@@ -413,7 +413,7 @@ def test_written_out_tables_give_the_scene_again_and_survive_json(name):
 
 @pytest.mark.parametrize("name", scene_names())
 def test_every_field_may_be_set(name):
-    """Of a scene as it is resolved: the values of a table's fields, one by one, change nothing."""
+    """Values of a resolved scene's fields, set one by one, change nothing."""
     scene = Scene.read(name)
     for section, table in scene.tables.items():
         for field, value in table.items() if isinstance(table, dict) else ():

@@ -108,7 +108,7 @@ def folder(tmp_path_factory) -> Path:
 
 
 def command(folder: Path, *arguments: str, status: int = 0) -> str:
-    """What crosscheck prints, with the study."""
+    """Output of crosscheck with the study."""
     found = f"{PROJECT}{os.pathsep}{folder}"
     done = python("-c", WITH_IT, *arguments, cwd=folder, PYTHONPATH=found)
     assert done.returncode == status, done.stderr

@@ -138,7 +138,7 @@ def test_finer_elements_and_other_windows_find_it_within_its_uncertainty(
 
 
 def test_on_a_bound_it_is_inconclusive(wavy, monkeypatch):
-    """Of the same levels, whose ratio is as far from a bound as it is uncertain, or farther."""
+    """The ratio of the same levels is as far from a bound as it is uncertain, or farther."""
     ratio = q.zones_of(wavy.findings[q.NAME])[0].figures["ratio"]
     size = ratio.numerical * ratio.scale
     case = wavy.solved.case(0.0)

@@ -77,7 +77,7 @@ def solved(
 
 
 def contact_values(path: Path, column: int) -> dict[int, float]:
-    """By node, a column of 12 characters of the last increment's contact."""
+    """A column of 12 characters of the last increment's contact, by node."""
     _, _, block = path.read_text().rpartition("\n -4  CONTACT")
     lines = [line for line in block.partition("\n -3")[0].splitlines() if line[:3] == " -1"]
     return {int(line[3:13]): float(line[column : column + 12]) for line in lines}
@@ -90,7 +90,7 @@ def coarse(tables: dict, times: float = 2.0) -> dict:
 
 
 def judged(folder: Path, name: str, old: str = "", new: str = "") -> dict[str, Figure]:
-    """By quantity, CalculiX on two resolutions as `run --answer` judges it beside the scene's
+    """Figures of CalculiX on two resolutions as `run --answer` judges it beside the scene's
     finite elements: by the stress on the surface of its solution of the decks."""
     tables = {table: fields for table, fields in SCENES[name].items() if table != "stress"}
     tables["finite_element"] = tables.get("finite_element", {}) | {"growth": GROWTH.get(name, 0.5)}
@@ -103,7 +103,7 @@ def judged(folder: Path, name: str, old: str = "", new: str = "") -> dict[str, F
 
 
 def differences(figures: Figures) -> dict[str, Figure]:
-    """Of CalculiX from a model, by quantity."""
+    """Differences of CalculiX from a model, by quantity."""
     of_answer = figures.of(study="answers", source="calculix")
     return {f.quantity: f for f in of_answer if f.against in MODELS}
 
@@ -126,7 +126,7 @@ def test_a_deck_of_another_modulus_differs(tmp_path):
 
 
 def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
-    """As `run --answer` twice: the stress on the surface and below it, on two resolutions."""
+    """Run `run --answer` twice: the stress on the surface and below it, on two resolutions."""
     pytest.importorskip("pyvista_frd", reason="answers of CalculiX: crosscheck[answers]")
     tables = scenes.changed(
         crosscheck.Scene.read("smooth").written,

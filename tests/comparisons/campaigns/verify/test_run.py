@@ -153,7 +153,7 @@ def row(
     uncertainty: Uncertainty | None = None,
     **fields,
 ) -> Row:
-    """Of one case with an exact answer of 2."""
+    """Row of one case with an exact answer of 2."""
     levels = 1.9, 1.95, 2.0 * (1.0 + error)
     uncertainty = uncertainty or Uncertainty({"discretisation": stated}, KNOWN)
     more = {"scale": 2.0, "uncertainty": uncertainty, "levels": levels}

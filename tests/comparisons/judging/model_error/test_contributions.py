@@ -31,7 +31,7 @@ def is_nothing(difference: QuantitiesOfInterest) -> bool:
 
 
 def what_is_left(parts: Solutions) -> QuantitiesOfInterest:
-    """Of what the scene's own finite elements lack, without the effects and their interaction."""
+    """Rest of what the scene's own elements lack, without the effects and their interaction."""
     effects = (change for [change] in parts.effects.values())
     return reduce(sub, effects, parts.missing[0] - parts.interaction[0])
 

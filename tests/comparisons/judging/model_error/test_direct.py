@@ -73,8 +73,8 @@ def direct_errors(tables: dict) -> dict[str, float]:
 
 
 def both(name: str, levels: int, elements: float) -> list[tuple[Figure, float]]:
-    """Of every quantity, put together and switched on; the third level has so many elements to a
-    half-width."""
+    """Errors of every quantity, put together and switched on; the third level has so many elements
+    to a half-width."""
     tables, switches = SCENES[name]
     half_width = problem(tables).hertz.half_width
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}

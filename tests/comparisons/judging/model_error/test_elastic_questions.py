@@ -45,7 +45,7 @@ RIPPLED = {
 
 
 def test_within_linear_elasticity_the_error_is_that_of_the_circle():
-    """By the half-plane's own operator under the circle, which knows no finite elements."""
+    """The half-plane's own operator presses the circle, which knows no finite elements."""
     run = run_of(DEEP)
     selection = run.data("model_error").selection
     assert "exact_circle" in selection.added

@@ -20,7 +20,7 @@ from comparisons.scenes.files import read_toml
 
 @pytest.mark.parametrize("name", finished_names())
 def test_they_bound_every_point_of_a_finished_map(name):
-    """What the half-plane is off by, beyond its uncertainty, is at most the sum of estimates."""
+    """The half-plane's error, beyond its uncertainty, is at most the sum of estimates."""
     content = finished_map(name)
     base = resolved(read_toml(FINISHED / f"{name}.toml"), name, FINISHED)
     checked, tight = 0, 0.0

@@ -35,7 +35,7 @@ def short():
 
 @pytest.fixture
 def finite(short):
-    """In the time that the other asks for."""
+    """Run with the time that the other asks for."""
     [line] = headline(short).paste
     time = asked_in_python(line, short.problem.scene).budget.time
     return run_of(SCENE, tolerance=OPEN, budget={"time": time})

@@ -29,7 +29,7 @@ def solution(*shears: float, depths=(1e-6, 2e-6, 3e-6)) -> QuantitiesOfInterest:
 def errors(
     problem, half_plane, plain, whole, effects: dict, settled: float = 1e-4, read=None
 ) -> dict[str, Figure]:
-    """Of the largest shear and its depth; the same on all three levels. `read` gives another
+    """Errors of the largest shear and its depth; the same on all three levels. `read` gives another
     model's error of the solutions and a quantity."""
     level = SimpleNamespace
     runs = {

@@ -1,4 +1,4 @@
-"""What the law of elasticity may change: planes through three laws, published solids, scatter."""
+"""Changes by the law of elasticity: planes through three laws, published solids, scatter."""
 
 from dataclasses import replace
 
@@ -85,7 +85,7 @@ def test_bodies_of_two_solids_vary_by_themselves():
 
 
 def test_a_steel_of_no_measured_constants_may_have_those_of_any_measured_steel():
-    """By itself: another steel of the same moduli need not have the same."""
+    """Each body varies by itself: another steel of the same moduli need not have the same."""
     alike = {solids()[name].material for name in ("18CrNiMo7-6", "100Cr6")}
     assert len(alike) == 1
     case, ring = {"material": "18CrNiMo7-6"}, {"material": "100Cr6"}

@@ -1,4 +1,4 @@
-"""What cannot change a verdict is left out: the verdicts are those with all of it."""
+"""Work that cannot change a verdict is left out: the verdicts are those with all of it."""
 
 from dataclasses import replace
 

@@ -145,7 +145,7 @@ class TestSmooth:
 
 
 def status_of(outcome: Run, effect: str) -> tuple[str, str]:
-    """What became of an effect, and why."""
+    """Status of an effect, and its reason."""
     rows = outcome.findings["model_error"].table("effects").rows()
     return next((row["status"], row["because"]) for row in rows if row["effect"] == effect)
 

@@ -1,4 +1,4 @@
-"""What a figure owes to the sampling of the trace: stated, and held against finer samples."""
+"""Share of a figure owed to the trace's sampling: stated, and held against finer samples."""
 
 import numpy as np
 import pytest

@@ -81,7 +81,7 @@ def test_of_a_whole_without_a_solution_nothing_is_known(made):
 
 
 def test_a_problem_can_be_handed_on(problem_with):
-    """With its gap, which is what the other process presses on."""
+    """Its gap goes with it, which is what the other process presses on."""
     wavy = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
     problem = problem_with(profile=wavy)
     copied = pickle.loads(pickle.dumps(problem))

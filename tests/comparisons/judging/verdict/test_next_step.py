@@ -1,7 +1,7 @@
-"""What is offered next is a command: it is typed as it stands, and its scene is posed.
+"""The next step offered is a command: it is typed as it stands, and its scene is posed.
 
-Runs are stated, not solved: a half-plane on one level, in the finite elements' place, too, what
-`selected_effects` and `flow_assessment` say of it, and model errors that are drawn."""
+Runs are stated, not solved: a half-plane on one level, which stands for the finite elements, too,
+what `selected_effects` and `flow_assessment` say of it, and model errors that are drawn."""
 
 import random
 import shlex
@@ -71,7 +71,7 @@ def maybe(draw: random.Random, *values: object) -> object:
 
 
 def tables(draw: random.Random) -> dict:
-    """Of a scene that may or may not be one."""
+    """Tables of a scene that may or may not be one."""
     body, roller = dict(draw.choice(BODIES)), {"radius": 8e-3} | draw.choice(BODIES)
     strain = draw.choice([1e-4, 2e-3, 2e-2])
     known = body if "material" not in body else solids()[body["material"]].values
@@ -193,7 +193,7 @@ def typed(monkeypatch, tmp_path):
 
 
 def check(run: Run, typed) -> set[str]:
-    """What is offered is a command that the scene takes, and another than before; or a sentence.
+    """Each offer is a command that the scene takes, and another than before; or a sentence.
     Returns the fields and options that it sets."""
     scene, sets = run.problem.scene, set()
     for offer in next_of(run, kind_of(run)):

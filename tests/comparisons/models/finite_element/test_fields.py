@@ -127,7 +127,7 @@ def test_both_fields_have_the_curve_next_to_the_ends(runs):
 
 
 def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
-    """What is found goes to other processes; where it is the largest alone, it is the same."""
+    """The values found go to other processes; the largest alone are the same."""
     posed, pairs = problem(TABLES), []
     plan = make_plan(posed, ("finite_element",))
 

@@ -119,7 +119,7 @@ def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
 
 @pytest.mark.parametrize("friction", [0.0, 0.2])
 def test_a_cap_holds_by_deformed_area_and_small_loads_are_the_linear_theorys(friction):
-    """Of a body capped at 0.7 times Hertz's peak: shears differ as the strains do."""
+    """The hardness is 0.7 times Hertz's peak: shears differ as the strains do."""
     left = []
     for curvature in (0.08, 0.02):
         peak = 0.5 * curvature * 210e9 / 0.91
@@ -218,7 +218,7 @@ def under_rigid_roller(material: Material) -> tuple[float, float]:
 
 
 def changes(material: Material) -> tuple[float, float]:
-    """Of peak pressure and length from the neo-Hookean law, over p0/E."""
+    """Changes of peak pressure and length from the neo-Hookean law, over p0/E."""
     neo_hookean = Material(material.youngs_modulus, material.poissons_ratio, Law())
     strain = 0.5 * RATIO * material.plane_strain_modulus / material.youngs_modulus
     pairs = zip(under_rigid_roller(material), under_rigid_roller(neo_hookean), strict=True)
@@ -229,7 +229,7 @@ def changes(material: Material) -> tuple[float, float]:
     "name", ["carbon steel", "aluminium alloy", "tungsten", "niobium", "fused silica", "PMMA"]
 )
 def test_measured_laws_change_a_contact_as_their_constants_say(name):
-    """Of first order in the load; what is left is of the next order, 3 % of strain here."""
+    """Changes are of first order in the load; the rest is of the next order, 3 % of strain here."""
     material = solids()[name].material
     expected = peak_change(material.law, material)
     peak, length = changes(material)

@@ -1,4 +1,4 @@
-"""What holds an elastic roller, and what that changes in its contact; the real boundary of a rough
+"""Support of an elastic roller, and what that changes in its contact; the real boundary of a rough
 body: the trace under every pressure element, on every level."""
 
 from dataclasses import replace
@@ -49,7 +49,7 @@ def posed(material: str, curvature: float, support: object, **switches: object) 
 
 @lru_cache
 def half_plane_off(material: str, curvature: float, support: str) -> float:
-    """What the half-plane's peak pressure is off by, relative to that of the disc."""
+    """Error of the half-plane's peak pressure, relative to that of the disc."""
     scene = posed(material, curvature, SUPPORTS[support])
     level = finite_elements(scene, scene.hertz.half_width / 24.0)
     assert level.solution.converged
@@ -171,7 +171,7 @@ def problem_with(profile: dict, **finite_element) -> Problem:
 
 
 def mesh_of(problem: Problem, pitch: float, contact: float = 0.7) -> BlockMesh:
-    """Of a level on which contact is predicted on this part of the smooth one."""
+    """Mesh of a level on which contact is predicted on this part of the smooth one."""
     patches = contact * problem.hertz.half_width * np.array([[-1.0, 1.0]])
     return rough_mesh(problem, build_block(block_spec(problem, Refinement(pitch), patches)))
 

@@ -71,7 +71,7 @@ class Page(HTMLParser):
             self.tables[-1][-1][-1] += f" | {data}"
 
     def count(self, word: str) -> int:
-        """Of the pictures whose words for them hold this one."""
+        """Number of pictures whose words for them hold this one."""
         return sum(word in image["alt"] for image in self.images)
 
 

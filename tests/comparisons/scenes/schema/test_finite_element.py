@@ -146,7 +146,7 @@ def test_assumptions_are_those_of_the_run_that_was_made(added, said, unsaid):
 
 @pytest.mark.parametrize(("thickness", "exact"), [(None, True), (1e-3, False)])
 def test_friction_is_without_effect_on_half_planes_alone(thickness, exact):
-    """Of like bodies: a layer's surface is moved by it."""
+    """Bodies are alike: a layer's surface is moved by friction."""
     body = STEEL if thickness is None else {**STEEL, "thickness": thickness}
     tables = {**ELASTIC, "body": body, "load": {**ELASTIC["load"], "friction": 0.1}}
     [spoken] = [s for s in assumptions_of(problem_of(scene_of(tables))) if "traction" in s]

@@ -81,7 +81,7 @@ def test_three_per_cent_more_differ(answered, curve):
 
 
 def test_own_finite_elements_field_agrees(answered, tmp_path):
-    """As any code's file: read from the mesh, and compared with what was found off its nodes."""
+    """It is read as any code's file: from the mesh, and compared with values off its nodes."""
     run(resolved(QUICK), tmp_path / "own", ("finite_element",))
     section = {"file": str(tmp_path / "own/finite_element/stress.vtu")}
     outcome = answered(section, ("finite_element",))
@@ -140,7 +140,7 @@ def test_files_table_and_repetition_follow(answered, curve, tmp_path, undrawn):
 
 
 def test_edges_are_found_between_points():
-    """Of a smooth edge, to a small part of the spacing."""
+    """A smooth edge is found to a small part of the spacing."""
     for offset in np.linspace(0.0, 0.9, 4):
         x = 0.05 * (np.arange(-30, 31) + offset)
         answer = Answer("f", "0", x, np.sqrt(np.maximum(1.0 - x**2, 0.0)))

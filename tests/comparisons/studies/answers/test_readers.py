@@ -193,7 +193,7 @@ def solved_by_calculix(mesh, hertz, tmp_path_factory):
 
 @pytest.mark.parametrize("flag", [",OUTPUT=2D", ",OUTPUT=3D"])
 def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
-    """In its plane, or as the layer of wedges that it solves on; the last of two steps."""
+    """Results are in a plane, or on the layer of wedges that it solves; the last of two steps."""
     path = solved_by_calculix(flag)
     section = {"file": str(path), "units": {"length": "mm", "stress": "MPa"}}
     holds(read(section), hertz, near=0.05)  # the body is 18 half-widths deep
@@ -286,7 +286,7 @@ def test_missing_stresses_steps_and_frictions(mesh, stress, hertz, tmp_path):
 
 
 def test_components_in_an_exodus_file(mesh, hertz, tmp_path):
-    """In MOOSE's order, of which VTK takes the first two for a vector."""
+    """Components are in MOOSE's order, of which VTK takes the first two for a vector."""
     from vtkmodules.vtkIOExodus import vtkExodusIIWriter
 
     grid, stress = grid_of(upright(mesh), mesh.triangles), exact(mesh, hertz)

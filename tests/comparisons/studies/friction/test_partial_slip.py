@@ -68,7 +68,7 @@ def test_a_cycle_is_covered_by_what_is_stated(cycled):
 
 
 def test_the_largest_tension_of_rough_contact_is_at_an_end_of_it():
-    """By hats of this pitch alone it is a sixth less, by those of an eighth of it 935 MPa."""
+    """Hats of this pitch alone make it a sixth less, by those of an eighth of it 935 MPa."""
     waves = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.2e-6}
     load = {"hertz_peak_pressure": 1e9, "friction": 0.3}
     roller = {"radius": 7.5706e-3, **STEEL}
@@ -136,7 +136,7 @@ def test_bulk_stress_moves_the_zone_and_adds_itself():
 
 @pytest.mark.parametrize("roller", [STEEL, {"rigid": True}], ids=["elastic", "rigid"])
 def test_unlike_bodies_are_loaded_alike_by_both_models(roller):
-    """By few increments, the same of both, on the coarsest elements."""
+    """Both take few increments, the same of both, on the coarsest elements."""
     radius = {"radius": 8e-3}
     scene = SMOOTH | {"roller": radius | roller, "partial_slip": {"load": 0.5}}
     scene = scene | {"body": {"youngs_modulus": 70e9, "poissons_ratio": 0.33}}

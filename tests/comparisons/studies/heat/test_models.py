@@ -93,7 +93,7 @@ def test_reversed_roles_mirror():
     ],
 )
 def test_finite_bodies_against_transforms(body, coating, base):
-    """With a roller that takes no heat, the body's surface has all of it."""
+    """The roller takes no heat: the body's surface has all of it."""
     heat_section = dict(INSULATOR)
     if coating:
         heat_section |= {f"coating_{name}": value for name, value in LAYER.items()}
@@ -156,7 +156,7 @@ def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
 
 
 def test_a_fast_roller_is_a_half_space():
-    """Of it, what is heated alone is meshed; a slow one is warmer than a half-space."""
+    """Only the heated part is meshed; a slow one is warmer than a half-space."""
     for speed, least, most in ((20.0, 2e-4, 2e-3), (2.0, 1e-3, 1e-2), (0.05, 0.01, 0.1)):
         posed = made(slide_to_roll=-2.0, speed=speed, **INSULATING_BODY)
         level = half_plane_at(posed)

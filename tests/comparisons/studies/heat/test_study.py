@@ -43,7 +43,7 @@ TRACE = changed(GROUND, load={"friction": [0.0, 0.1]}) | {
 
 
 def differences(outcome):
-    """Of both models, in the order of the quantities."""
+    """Differences of both models, in the order of the quantities."""
     return outcome.figures.of(study="heat", against="finite_element")
 
 
@@ -228,7 +228,7 @@ COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
 
 
 def solved(tables):
-    """What `finite_element_stress` takes, on the coarsest level."""
+    """Arguments of `finite_element_stress`, on the coarsest level."""
     posed = problem(tables)
     return posed, finite_elements(posed, fields=True)
 

@@ -42,7 +42,7 @@ def loads(outcome):
 
 @pytest.fixture
 def uncertainties(outcome):
-    """The same of their uncertainties."""
+    """Uncertainties of the columns."""
     columns = outcome.findings["statistics"].table("loads").columns
     return {name: column.sizes for name, column in columns.items()}
 
@@ -83,7 +83,7 @@ def test_a_light_load_rests_on_few_ridges_that_hertz_knows(loads, uncertainties)
 
 
 def test_a_heavy_load_has_no_cause_left_but_the_summits(loads):
-    """With tens of contacts Persson's ridges meet the solved ones within a third."""
+    """Tens of contacts: Persson's ridges meet the solved ones within a third."""
     few, ridges = loads["causes.few contacts"], loads["causes.ridges"]
     assert loads["patches"][0] > 25.0
     assert 1.0 < few[0] < 1.33 and np.all(np.diff(few) >= 0.0)
@@ -222,7 +222,7 @@ def test_without_the_section_nothing_of_it_runs(monkeypatch):
     skipped = {line.source: line.text for line in said if line.name == "skipped"}
     assert skipped["statistics of rough contact"] == "the scene has no [statistics]"
     plan = make_plan(problem_of(resolved(SCENE)), ("finite_element",))
-    assert plan.skipped["statistics of rough contact"] == "they take the half-plane"
+    assert plan.skipped["statistics of rough contact"] == "they need the half-plane"
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ class Browser:
         self._count, self._rest, self.events = 0, b"", []
 
     def ask(self, method: str, session: str | None = None, **parameters: object) -> dict:
-        """What the browser answers to one order."""
+        """Reply of the browser to one order."""
         self._count += 1
         order = {"id": self._count, "method": method, "params": parameters}
         order |= {"sessionId": session} if session else {}
@@ -128,7 +128,7 @@ class Tab:
         return self._browser.ask(method, self._session, **parameters)
 
     def value(self, expression: str) -> object:
-        """Of JavaScript; waits for a promise."""
+        """Value of a JavaScript expression; waits for a promise."""
         answer = self.ask(
             "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
         )
@@ -145,7 +145,7 @@ class Tab:
         self.ask("Input.dispatchKeyEvent", type="keyUp", **named)
 
     def complaints(self) -> list[str]:
-        """What the browser's console holds against the page."""
+        """Complaints about the page on the browser's console."""
         problems = []
         for event in self._browser.events:
             parameters = event.get("params", {})

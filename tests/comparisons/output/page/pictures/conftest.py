@@ -1,4 +1,4 @@
-"""What pictures draw, read from the figures before they become images."""
+"""Contents of pictures, read from the figures before they become images."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What the report's pictures draw: axes, pressures, surfaces, sections, mesh, problem, cost."""
+"""Contents of the report's pictures: axes, pressures, surfaces, sections, mesh, problem, cost."""
 
 import numpy as np
 import pytest

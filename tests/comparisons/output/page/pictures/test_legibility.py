@@ -1,4 +1,4 @@
-"""What a reader meets in the pictures: words apart, parts that differ in grey."""
+"""Legibility of the pictures: words apart, parts that differ in grey."""
 
 from itertools import combinations
 

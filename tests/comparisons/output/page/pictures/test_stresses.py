@@ -25,7 +25,7 @@ def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(wa
 
 
 def scales_of(figure) -> list:
-    """Of the colour bars: that of the models, then that of their difference."""
+    """Scales of the colour bars: that of the models, then that of their difference."""
     return [axes._colorbar.mappable for axes in figure.axes if hasattr(axes, "_colorbar")]
 
 
