@@ -82,7 +82,7 @@ def solids_table(listed: list["Solid"]) -> "Table":
 
 
 def _constants(solid: "Solid") -> list[str]:
-    """l, m, n with their errors, and the source; what stands in their place."""
+    """l, m, n with their errors, and the source; what stands in for them."""
     law = solid.law
     if law is None or law.murnaghan is None:
         return [UNKNOWN] * 3 + ["none found" if law is None else f"{law.name}: its class"]

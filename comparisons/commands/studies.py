@@ -107,7 +107,7 @@ def sweep(
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
 ) -> int:
-    """Solve several scenes, or one at many places, loads, traces or other values."""
+    """Solve several scenes, or one at many positions, loads, traces or other values."""
     from comparisons import api
     from comparisons.grid.sweep import joined_name
 

@@ -8,7 +8,7 @@ below. Their traces are not published: three computed profiles stand in for them
 load and Hertz pressure, 4.15 GPa. All is the half-plane's, as in the paper.
 
 The table has a row for each claim that a number can judge: the number, where it would confirm the
-claim, and the outcome. Where the paper has words and no number ("many", "near the surface") the
+claim, and the result. Where the paper has words and no number ("many", "near the surface") the
 bounds are this script's; between them and plain denial a claim is open. What a profile was made to
 show is "made so", and proves nothing.
 

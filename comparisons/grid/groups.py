@@ -139,7 +139,7 @@ def _set_radius(scene: Scene, value: float) -> Changes:
     """Set the load: a = 2 p0 R / E*."""
     if not scene.roller.rigid:
         raise SceneError(
-            f"{scene.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
+            f"{scene.source}: roller: is elastic; allowed with a_over_radius, which needs finite "
             "deformation, is roller.rigid = true"
         )
     peak = 0.5 * value * smooth_problem(scene).modulus

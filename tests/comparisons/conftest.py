@@ -115,7 +115,7 @@ def levels_of(
 
 
 def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
-    """The outcome of a scene given as tables."""
+    """The run of a scene given as tables."""
     scene = resolved(tables)
     problem = problem_of(scene)
     plan = make_plan(problem, models)
@@ -149,7 +149,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
 
 @pytest.fixture(scope="session")
 def finish() -> Callable[..., Run]:
-    """`finish(tables, models)`: the outcome of a scene given as tables."""
+    """`finish(tables, models)`: the run of a scene given as tables."""
     return finished_run
 
 

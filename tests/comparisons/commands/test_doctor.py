@@ -65,7 +65,7 @@ def test_findings_in_order_as_a_table_and_as_json(known, shown, monkeypatch, cap
 
 
 def test_the_revision_is_of_this_checkout_and_of_no_other(monkeypatch, tmp_path):
-    """Whatever repository the environment names or lies around it; by a program in git's place."""
+    """Whatever repository the environment names or lies around it; by a program instead of git."""
     git, checkout = tmp_path / "git", tmp_path / "checkout"
     git.write_text('#!/bin/sh\n[ -z "$GIT_DIR" ] && echo "$2"\n')
     git.chmod(0o755)

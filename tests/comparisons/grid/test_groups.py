@@ -211,5 +211,5 @@ class TestRequest:
         assert not set(one) & set(keys("curvature-thickness", *axes))
 
     def test_a_map_without_any_point_is_refused(self):
-        with pytest.raises(SceneError, match="which takes finite deformation"):
+        with pytest.raises(SceneError, match="which needs finite deformation"):
             request_of("smooth", "2x2", "a_over_radius", "a_over_thickness")

@@ -44,8 +44,8 @@ class Solved(list[float]):
 
 @pytest.fixture
 def solve_in(monkeypatch, tmp_path):
-    """solve_in(points, opens, why_not): the answers at points, or places, where they were solved,
-    and the steps."""
+    """solve_in(points, opens, why_not): the results at points, those that were solved, and the
+    steps."""
 
     def solve(points, opens=None, *why_not):
         solved, steps = Solved(), []

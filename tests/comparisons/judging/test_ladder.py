@@ -1,7 +1,7 @@
-"""Which model suffices: errors of every rung against the whole, and what is said of them.
+"""Which model suffices: errors of every model against the whole one, and what is said of them.
 
 The finished runs stand their finite elements in for by a half-plane that is one per cent stiffer:
-the whole is Hertz's contact at 1.01 E*."""
+the whole model is Hertz's contact at 1.01 E*."""
 
 import json
 from dataclasses import replace
@@ -55,7 +55,7 @@ def test_hertz_fails_and_the_half_plane_holds_on_a_wavy_surface(wavy_outcome):
 
 
 def test_the_half_plane_has_its_model_errors(wavy_outcome):
-    """And the whole no error but its uncertainty."""
+    """The whole model has no error but its uncertainty."""
     assert wavy_outcome.findings[MODEL_ERROR].data.solutions
     known = wavy_outcome.figures.of(study=LADDER)
     for error in wavy_outcome.model_errors:

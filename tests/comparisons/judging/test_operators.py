@@ -92,7 +92,7 @@ def test_traction_moves_both_surfaces_of_a_coated_body(softer):
 
 
 def test_what_an_operator_carries():
-    """A layer without its width, a cap where the pressure exceeds 3 Y."""
+    """A layer without its width, a hardness where the pressure exceeds 3 Y."""
     highest = problem(BODIES).hertz.peak_pressure
     body = {**STEEL, "thickness": 1e-3, "width": 40e-3, "yield_stress": 0.3 * highest}
     posed = problem(BODIES | {"body": body})

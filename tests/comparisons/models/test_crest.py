@@ -58,7 +58,7 @@ class Patch:
     int g'(t) dphi = 0,   P = (E*/2) int (t - m) g'(t) dphi,
     p(x) = (E*/2 pi) sqrt((x - a)(b - x)) int (g'(t) - g'(x))/(t - x) dphi,   0 < phi < pi.
 
-    Of two like patches at both sides of x = 0, with the place squared for x, g'/x for g' and p/x
+    Of two like patches at both sides of x = 0, with the distance squared for x, g'/x for g' and p/x
     for p."""
 
     def __init__(self, posed, patch, two):
@@ -96,7 +96,7 @@ class Patch:
         return self.modulus * size * (weights @ beside) * (x if self.two else 1.0)
 
     def peak(self, near, pitch):
-        """The largest pressure [Pa] within two pitches of a place [m]."""
+        """The largest pressure [Pa] within two pitches of an x [m]."""
         for reach in (2.0 * pitch, 0.1 * pitch, 0.005 * pitch):
             x = np.linspace(near - reach, near + reach, 81)
             pressures = [self.pressure(place) for place in x]

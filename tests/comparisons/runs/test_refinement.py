@@ -131,7 +131,7 @@ def test_the_end_of_another_command_leaves_levels_alone(tmp_path, smooth_outcome
 
 @pytest.fixture
 def project(tmp_path, monkeypatch):
-    """A project with one function in every place that shapes a cached result, and in two more."""
+    """A project with one function in every module that shapes a cached result, and in two more."""
     places = {
         *CODE,
         *map_of_groups.CODE,

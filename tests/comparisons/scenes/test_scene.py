@@ -1,5 +1,5 @@
 """Scenes: one meaning in any units, defaults, tables that give the scene again, other values.
-Finding scenes and reading them as TOML; those that come along can be written out again. Fields
+Finding scenes and reading them as TOML; shipped ones can be written out again. Fields
 that are set beside a scene's file: as the file would have them, or refused in a line."""
 
 import copy

@@ -28,7 +28,7 @@ SLIDING = scenes.changed(crosscheck.Scene.read("coated").written, load={"frictio
 
 
 def blocks(folder: Path) -> list[tuple[str, dict[str, str], list[list[str]]]]:
-    """Keyword, parameters and data lines, with included files in their places."""
+    """Keyword, parameters and data lines, with the text of included files."""
     text = (folder / "job.inp").read_text()
     for name in re.findall(r"\*INCLUDE, INPUT=(\S+)", text):
         text = text.replace(f"*INCLUDE, INPUT={name}\n", (folder / name).read_text())

@@ -102,6 +102,6 @@ def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
 
 
 def test_on_the_same_levels_they_are_the_same():
-    """Relative to the whole, wherever it comes from."""
+    """Relative to the whole model, wherever it comes from."""
     for stated, direct in both("rubber layer", levels=3, elements=16.0):
         assert stated.value == pytest.approx(direct, abs=1e-6), stated.quantity

@@ -1,4 +1,4 @@
-"""Flow beside a half-plane that exceeds the yield stress beyond doubt, or why there is none."""
+"""Flow beside a half-plane that surely exceeds the yield stress, or why there is none."""
 
 import pytest
 from scenes import STEEL, asked_in_python, changed, resolved, run_of

@@ -65,7 +65,7 @@ def errors(
 
 def test_other_models_are_judged_by_their_own_largest_values(problem_with):
     """Finite elements without the effect that moves the maximum, with it, and a closed form; what
-    is not known of the whole is what is not known of the scene's own finite elements."""
+    is not known of the whole model is what is not known of the scene's own finite elements."""
     plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
 
     def errors_by(read) -> list[tuple[float, float]]:
@@ -84,7 +84,7 @@ def test_other_models_are_judged_by_their_own_largest_values(problem_with):
 
 def test_an_effect_that_moves_the_maximum_is_measured_where_the_whole_has_it(problem_with):
     """It raises the third asperity by 10 % and lowers the second by 10 %: no difference of the
-    largest values, which stand at two places, is either."""
+    largest values, which stand at two x, is either."""
     plain, strained = solution(1.0, 3.0, 2.9), solution(1.0, 2.7, 3.19)
     result = errors(problem_with(), plain, plain, strained, {"finite_strain": strained})
     shear = result["tau1_max"]

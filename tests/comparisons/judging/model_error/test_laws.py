@@ -113,7 +113,7 @@ def test_a_known_law_is_not_open_and_measured_constants_scatter():
 def test_a_soft_body_lies_between_the_laws_of_rubbers():
     [law] = open_laws(resolved(scene({"youngs_modulus": 3e6, "poissons_ratio": 0.49})))
     assert [kind.name for kind in law.laws] == ["neo-hookean", "hencky"]
-    assert [kind.name for kind in law.probes.values()] == ["hencky"]  # the whole is the other
+    assert [kind.name for kind in law.probes.values()] == ["hencky"]  # the whole model is the other
 
 
 def test_a_named_solid_decides_what_moduli_leave_open():

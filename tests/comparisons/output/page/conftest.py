@@ -104,7 +104,7 @@ def half_plane_outcome(finish: Callable[..., Run]) -> Run:
 
 @pytest.fixture(scope="session")
 def rendered() -> Callable[[Run], str]:
-    """`rendered(outcome)`: its page; drawn once for each of these fixtures' outcomes."""
+    """`rendered(outcome)`: its page; drawn once for each of these fixtures' runs."""
     pages: dict[int, tuple[Run, str]] = {}
 
     def page(outcome: Run) -> str:

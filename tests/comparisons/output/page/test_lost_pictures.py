@@ -13,7 +13,7 @@ from comparisons.output.page.tables import verification
 
 RUN = ["run", "smooth", "--models", "half-plane", "--out", "out"]
 FILES = {"half_plane", "result.json", "run.npz"}
-# of the figures alone, without time and place
+# of the figures alone, without time and folder
 FIGURES = re.compile(r'"figures": .*?"series"', re.DOTALL)
 
 

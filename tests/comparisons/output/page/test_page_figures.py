@@ -103,7 +103,7 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Run
 
 
 def capped(outcome: Run, one: float, other: float) -> Run:
-    """The outcome with these peaks over the hardness."""
+    """The run with these peaks over the hardness."""
     levels, hardness = {}, outcome.problem.scene.body.hardness
     for (name, run), size in zip(outcome.runs.items(), (one, other), strict=True):
         pressure = np.minimum(run.finest.solution.pressure, size * hardness)

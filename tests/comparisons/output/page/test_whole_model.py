@@ -14,7 +14,7 @@ from comparisons.output.page.pictures.stresses import field_pictures, section_pi
 from comparisons.output.page.plots import Plots
 from comparisons.runs.write import write_files
 
-MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole's pressures
+MOVED, HIGHER = 2, 1.05  # pitches, and times: the whole model's pressures
 
 
 @pytest.fixture(scope="module")
