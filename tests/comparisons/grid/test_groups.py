@@ -103,7 +103,7 @@ class TestGroups:
             (RIGID, "modulus_ratio", "roller.rigid:"),
             (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
             (RIGID, "coating_over_a", r"coating: is missing; allowed for its groups is \[coating"),
-            (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
+            (ELASTIC, "a_over_radius", "a_over_radius, which needs finite"),
             (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
             (
                 {**RIGID, "body": {**RIGID["body"], "thickness": 1e-3}, "load": {"approach": 1e-6}},
