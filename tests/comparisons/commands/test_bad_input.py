@@ -63,6 +63,7 @@ def test_wrong_file(folder, content, fragment, complaint):
     assert fragment in complaint("run", "scene.toml", "--json")
 
 
+UNITS = 'crosscheck: --units: is "{}"; allowed is a unit of length and one of stress'
 COUNTS = ("3", "1x3", "3x201", "x", "3x-2")
 AXES = [
     ("", "is ''"),
@@ -130,6 +131,12 @@ SWEEPS = [
             (["run", "mine.toml", "--tolerance", wrong], f"tolerance.peak_pressure: is {said}")
             for wrong, said in (("5", "5; allow"), ("x", '"x"'), ("500%", '"500%"'), ("nan", "nan"))
         ),
+        (["run", "smooth", "--answer", "nothing"], "--answer: is"),
+        (["run", "smooth", "--units", "mm,MPa"], "--units: is given without --answer"),
+        *(
+            (["run", "smooth", "--answer", "one=a.csv", "--units", units], UNITS.format(units))
+            for units in ("mm,kg", "mm,um", "", "mm,MPaa")
+        ),
         (["init", "trace.csv", "--radius", "８"], "--radius: is"),
         (["init", "."], ".: is a directory; a profile is a file"),
         (["run", "mine.toml", "--plan", "--json"], "run: allowed is one of --plan, --json"),
@@ -147,6 +154,7 @@ SWEEPS = [
 def test_what_no_command_can_do_is_refused(folder, complaint, arguments, said):
     (folder / "result.json").write_text('{"schema": 3, "scene": {}}')
     (folder / "empty").mkdir()
+    (folder / "a.csv").write_text("x,p\n")
     assert said in complaint(*arguments)
 
 
