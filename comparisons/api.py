@@ -163,7 +163,7 @@ def map(
               something else is asked of it, or `again`
     points    along x and y, "NxM"; 8x8 by default
     x, y      "GROUP" or "GROUP=FROM:TO"; by the scene by default
-    quantity  that is shown; the finished map's, or the peak pressure
+    quantity  to show; by default the finished map's, or the peak pressure
     settings  other values of fields of the scene, FIELD=VALUE each
     mark      name or path of a scene that is marked on the map
     workers   processes, one a core by default, or a Dask scheduler's address
@@ -199,7 +199,7 @@ def sweep(
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> "Sweep":
-    """Several scenes, or one at many placements, loads, traces or values of any field: what
+    """Several scenes, or one at many positions, loads, traces or values of any field: what
     `crosscheck sweep` does.
 
     over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", "profile.file=FOLDER", several of

@@ -67,7 +67,7 @@ def level_costs(names: list[str], levels: int) -> list[LevelCost]:
 
 
 def demands(rows: list[LevelCost]) -> list[harness.Demand]:
-    """That every law is within WITHIN, of the levels that take LEAST or more."""
+    """Demand that every law is within WITHIN, of the levels that take LEAST or more."""
     long = [row for row in rows if row.seconds[1] >= LEAST]
     demanded = []
     for law in LAWS:

@@ -72,13 +72,13 @@ def _level(flat: FlattenedCylinder) -> float:
 
 
 def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
-    """Under unit p and q at x = 0 that fall linearly to zero at -pitch, pitch; x, z >= 0 [m]."""
+    """Stress under unit p and q at x = 0, linear to zero at -pitch, pitch; x, z >= 0 [m]."""
     x, z = points_below(x, z)
     return hat_at(x / pitch, z / pitch)
 
 
 def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
-    """Under unit p and unit q on |x| < half_width, at x, z [m] (broadcast together), z >= 0."""
+    """Stress under unit p and q on |x| < half_width, at x, z [m] (broadcast together), z >= 0."""
     x, z = points_below(x, z)
     return strip_between(x + half_width, x, x - half_width, z)
 

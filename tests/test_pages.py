@@ -79,7 +79,7 @@ def test_pages_are_read_in_one_sitting():
 
 
 def sentences(text: str) -> Iterator[str]:
-    """Those of a page without its tables, code and headings."""
+    """Sentences of a page without its tables, code and headings."""
     text = re.sub(r"^```(?s:.*?)^```$|^(?:    |[|#<]).*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"\]\([^)]*\)", "]", text)
     for paragraph in re.split(r"\n\s*\n|\n\s*(?:[-*]|\d+\.) ", text):

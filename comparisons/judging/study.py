@@ -1,4 +1,4 @@
-"""A study: one question to one solved scene, and all that becomes of its answer.
+"""A study: one question to one solved scene, and all that becomes of its result.
 
 In: a solved scene, and what earlier studies found. Out: figures, series and statements, and how the
 page and the terminal show them. A new study is a module with a STUDY, which is named in

@@ -1,4 +1,4 @@
-"""The closed form of a scene's smooth answer: Hertz's contact, or Westergaard's of a single wave.
+"""The closed form of a scene's smooth contact: Hertz's contact, or Westergaard's of a single wave.
 
 A periodic surface of several waves has none."""
 

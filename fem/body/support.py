@@ -1,4 +1,4 @@
-"""How a block is held."""
+"""Support of a block."""
 
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -13,7 +13,7 @@ Sides = Literal["free", "rollers", "fixed", "tied"]
 
 @dataclass(frozen=True)
 class Support:
-    """How the block is held.
+    """Support of the block.
 
     Of square blocks in place of a half-plane the one bonded and fixed all round is the best:
     Hertz's largest shear stress is 0.22 % high at a depth of 400 half-widths and 0.9 % at 100; with

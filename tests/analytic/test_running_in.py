@@ -30,7 +30,7 @@ PLACES = A * np.array([-0.53, 0.0, 0.41, 0.9])
 
 
 def ran_in(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how) -> RunIn:
-    """On hats as far apart as the samples, so that these stay where they are."""
+    """Run in on hats as far apart as the samples, so that these stay where they are."""
     how = {"pitch": profile.spacing, **how}
     return run_in(profile, RADIUS, MODULUS, constraints, positions, **how)
 

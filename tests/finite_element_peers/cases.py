@@ -53,7 +53,7 @@ class BlockCase(NamedTuple):
     peak: float
 
     def task(self, edges: int, growth: float) -> BlockTask:
-        """On a mesh with so many edges to a, whose elements grow by `growth`."""
+        """Task on a mesh with so many edges to a, whose elements grow by `growth`."""
         return BlockTask(_mesh(edges, growth), self.approach)
 
 

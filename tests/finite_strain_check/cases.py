@@ -69,8 +69,8 @@ def solved(
 
 
 def kept(by_level: list[ContactFigures], levels: Sequence[float]) -> dict:
-    """For `values.json`, SI units: the finest mesh's figures, and as uncertainty of each what the
-    last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
+    """Values for `values.json`, SI units: the finest mesh's figures, and as their uncertainties what
+    the last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
     fine, coarse = by_level[-1], by_level[-2]
 
     def figure(name: str, unit: float) -> dict[str, float]:

@@ -92,7 +92,7 @@ class SurfacePair:
 
     @cached_property
     def roller_edges(self) -> np.ndarray:
-        """Those of the roller's surface (k, 3) that are no steeper than 60 degrees."""
+        """Edges of the roller's surface (k, 3) that are no steeper than 60 degrees."""
         edges = self.roller.mesh.surface
         x, z = self.roller.places[edges[:, [0, 2]]].T
         return edges[np.abs(z[1] - z[0]) < np.sqrt(3.0) * (x[1] - x[0])]
@@ -122,7 +122,7 @@ class SurfacePair:
         return solid.places + moved + [body * state.shift, 0.0]
 
     def terms(self, state: State) -> dict[str, np.ndarray]:
-        """At every integration point (p): gap, slope, the roller's derivative of x and curvature,
+        """Terms at integration points (p): gap, slope, the roller's derivative of x and curvature,
         corners and hats (p, 2) of the pressure, weight, and rows (p, 12) of the derivatives
         D, F, X, Z of `assembled`.
 

@@ -261,9 +261,9 @@ def solutions(
     reach: float,
     log: Callable[[str], None] = lambda text: None,
 ) -> Iterator[tuple[SurfacePair, State]]:
-    """On meshes of each size [um] of `levels`, coarse to fine: the first covers the whole `reach`
-    [um] from the middle, finer ones what the one before has in contact. Finite strain starts from
-    small ones. Raises NotSettledError where there is no solution."""
+    """Solve on meshes of each size [um] of `levels`, coarse to fine: the first covers the whole
+    `reach` [um] from the middle, finer ones what the one before has in contact. Finite strain
+    starts from small ones. Raises NotSettledError where there is no solution."""
     wanted = ElementSizes(levels[0], np.array([[-reach, reach]]), NOWHERE, NOWHERE[:, 0])
     mesh = meshes(task, wanted)
     now = pair(task, *mesh, reach)

@@ -1,4 +1,4 @@
-"""From predicted patches to refined ranges, and contact outside of them."""
+"""Refined ranges from predicted patches, and contact outside of them."""
 
 import numpy as np
 import pytest

@@ -1,1 +1,1 @@
-"""The sections of single studies: of the section's name is the module, whose SECTION it is."""
+"""The sections of single studies: one module each, named after the section, with its class SECTION."""

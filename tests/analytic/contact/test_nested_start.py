@@ -97,7 +97,7 @@ def rough(count: int, periodic: bool = True, seed: int = 4):
 
 
 class TestCost:
-    """On the finest grid: what is left to do there once the coarser ones have settled."""
+    """Cost on the finest grid: what is left to do there once the coarser ones have settled."""
 
     COUNTS = 2 ** np.arange(10, 15)
 

@@ -124,7 +124,7 @@ def test_what_makes_no_sense_is_refused(half_width, half_flat, wrong):
 
 
 def solved(punch: RoundedPunch, elements: int, offset: float):
-    """On `elements` hats over |x| < 1.5 a, the punch `offset` pitches off a node."""
+    """Solution on `elements` hats over |x| < 1.5 a, the punch `offset` pitches off a node."""
     reach = 1.5 * punch.half_width
     grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
     shift = offset * grid.pitch

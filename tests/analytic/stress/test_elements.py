@@ -217,7 +217,7 @@ def line(rng: np.random.Generator, count: int, signs: bool) -> tuple[np.ndarray,
 def points(
     rng: np.random.Generator, nodes: np.ndarray, lowest: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """On nodes and between them, at their edges, on the surface and at every depth, inside and out.
+    """Points on nodes and between them, at edges, on the surface and at depths, inside and out.
 
     x - node is a whole number of 2^-20 pitches, so that no method has a rounding to resolve.
     """

@@ -35,14 +35,14 @@ GAUSS, WEIGHT = np.polynomial.legendre.leggauss(200)
 
 
 def line(x: np.ndarray, z: np.ndarray) -> FrictionStress:
-    """Under P and Q of 1 N/m."""
+    """Stresses under P and Q of 1 N/m."""
     sines = x**2 * z, z**3, x * z**2, x**3
     sx, sz, txz, sx_traction = (-2.0 / np.pi * part / np.hypot(x, z) ** 4 for part in sines)
     return FrictionStress(StressState(sx, sz, txz), sx_traction)
 
 
 def strip(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
-    """Under p and q of 1 Pa."""
+    """Stresses under p and q of 1 Pa."""
     x, z = x / a, z / a
     t1, t2 = np.arctan2(z, x - 1.0), np.arctan2(z, x + 1.0)
     sines, cosines = np.sin(2.0 * t1) - np.sin(2.0 * t2), np.cos(2.0 * t1) - np.cos(2.0 * t2)
@@ -53,7 +53,7 @@ def strip(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
 
 
 def triangle(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
-    """Under p and q of 1 Pa at x = 0."""
+    """Stresses under p and q of 1 Pa at x = 0."""
     x, z = x / a, z / a
     places = (x - 1.0, x + 1.0, x)
     t1, t2, t = (np.arctan2(z, y) for y in places)

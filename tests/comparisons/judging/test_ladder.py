@@ -1,4 +1,4 @@
-"""Which model suffices: errors of every model against the whole one, and what is said of them.
+"""Model that suffices: errors of every model against the whole one, and what is said of them.
 
 The finished runs stand their finite elements in for by a half-plane that is one per cent stiffer:
 the whole model is Hertz's contact at 1.01 E*."""
@@ -24,7 +24,7 @@ TOLERANT = {"peak_pressure": 0.1, "contact_length": 0.1, "tau1_max": 0.1}
 
 @pytest.fixture(scope="module")
 def smooth_outcome(finish):
-    """Under a load at which nothing else matters."""
+    """Run under a load at which nothing else matters."""
     return finish(changed(STEADY, load={"per_length": 1e4}))
 
 

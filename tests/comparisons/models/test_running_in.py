@@ -52,7 +52,7 @@ def refused(changes: dict) -> str:
 
 
 def run_in_of(scene: Scene) -> SceneSurface:
-    """Its surface, run in."""
+    """Surface of the scene, run in."""
     return run_in_surface(scene, surface_of(scene))
 
 

@@ -73,14 +73,14 @@ class TestSector:
 
 @cache
 def half_plane(edge: float):
-    """So large a block that it stands for one, refined as the disc is."""
+    """Block so large that it stands for a half-plane, refined as the disc is."""
     block = build_block(BlockSpec(4000.0, 4000.0, REFINED, edge))
     return elastic_body(block, MATERIAL, Support(sides="fixed"))
 
 
 @cache
 def disc(radius: float, edge: float):
-    """Its sector, free to the sides."""
+    """Sector of the disc, free to the sides."""
     flat = build_block(BlockSpec(HALF_WIDTH * radius, DEPTH * radius, REFINED, edge))
     return elastic_body(bent(flat, radius), MATERIAL, Support())
 

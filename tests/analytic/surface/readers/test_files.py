@@ -1,4 +1,4 @@
-"""Which reader takes a file, whose units count, and what happens to lost heights."""
+"""Readers of files: which one reads a file, whose units count, and what happens to lost heights."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""From a measured profile to a scene that runs as it stands."""
+"""Scene from a measured profile, which runs as it stands."""
 
 import gzip
 import json

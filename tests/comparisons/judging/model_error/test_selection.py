@@ -1,4 +1,4 @@
-"""Which effects are computed: by estimate and tolerance, each for a reason."""
+"""Selection of effects to compute: by estimate and tolerance, each for a reason."""
 
 from dataclasses import replace
 

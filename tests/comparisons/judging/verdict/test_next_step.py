@@ -110,7 +110,7 @@ def tables(draw: random.Random) -> dict:
 
 
 def posed(scene: Scene) -> Problem | None:
-    """None of a scene that has no contact; the load of an approach is none of its own."""
+    """Problem, None of a scene that has no contact; the load of an approach is none of its own."""
     try:
         return problem_of(scene, load=1e5 if scene.load.kind == "approach" else None)
     except (InputError, ContactError):

@@ -70,7 +70,7 @@ def in_this_process(monkeypatch):
 
 
 def upright(mesh):
-    """Its points in a file, y out of the body."""
+    """Points of the answer in a file, y out of the body."""
     return mesh.points @ [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
 
 
