@@ -112,7 +112,7 @@ def shortest_wavelength(profile: Profile) -> float:
 
     The spline's slope is sampled evenly (at half of a spacing that nine sample distances in ten
     exceed), its mean removed, a Hann window laid over it, and its power summed from long to
-    short waves. The window spreads a wave: the answer errs by up to 1/L in wavenumber, to the short
+    short waves. The window spreads a wave: the result errs by up to 1/L in wavenumber, to the short
     side for a single wave. Of a profile without slope it is inf."""
     step = 0.5 * float(np.quantile(np.diff(profile.x), 0.1))
     count = next_fast_len(int(min(np.ceil(profile.length / step), MAX_RESAMPLED)), real=True)

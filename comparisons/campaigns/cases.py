@@ -218,7 +218,7 @@ def rows_of(
 
 
 def answers_of(out: Path, command: str, cases: Iterable[Trial]) -> Cache:
-    """Answers of a command into `out` that was stopped, of the same cases by the same code."""
+    """Results of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
     code = program_code("analytic", "comparisons", "fem", "meshes")
     key = key_of(names, versions(), code)

@@ -54,7 +54,7 @@ class Lasting(str):
 
 
 class Early(str):
-    """A line that is to stay on a terminal alone: a part of the answer, before the rest."""
+    """A line that is to stay on a terminal alone: a part of the result, before the rest."""
 
 
 @dataclass

@@ -1,7 +1,7 @@
 """One way to have work done: tasks by key, side by side in workers, or one after the other here.
 
 A level, an effect, some samples, a point of a map, a case and a picture are tasks. The number of
-processes and the order of work change no answer, and what is kept is not computed again. Where a
+processes and the order of work change no result, and what is kept is not computed again. Where a
 process ends amid a task, the task is tried again while nothing else runs. A process that ends then
 was ended by its task (`ProcessEnded`)."""
 
@@ -98,7 +98,7 @@ class Tasks:
 
     opens: Opens | None = None  # opens a worker; None: all is done in this process
     at_once: float = 1  # workers beside this process, which then only hands out
-    kept: Cache = NO_CACHE  # has answers from before, and gets the new ones
+    kept: Cache = NO_CACHE  # has results from before, and gets the new ones
     # gets the stages of all tasks, with the share of the expected seconds that is done
     callback: ProgressCallback = no_progress
     # seconds that tasks last beside the longest where workers begin; None: with the first task
@@ -173,7 +173,7 @@ class Tasks:
         return self._here.held(kind, key, make)
 
     def result(self, key: str) -> object:
-        """The answer of a known task, waited for, then forgotten; raises what its work raised, and
+        """The result of a known task, waited for, then forgotten; raises what its work raised, and
         ProcessEnded."""
         self._tasks[key].urgency = min(self._tasks[key].urgency, LATER)
         while key not in self._answers:

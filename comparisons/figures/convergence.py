@@ -19,7 +19,7 @@ wherever the observed order is out of range: most sequences show none, for the e
 depends on where its edge falls between two nodes, another point on each level, so that it is a
 power of h times a factor of either sign. The distance from fit to finest value is not added to s,
 which contains it; one power stands for the paper's three fits. On 696 figures of
-smooth, layered and rough contacts with exact answers this covers 99 % of the errors, on median by
+smooth, layered and rough contacts with exact values this covers 99 % of the errors, on median by
 4.7 times the error; the paper's rules as they stand cover 98 % by 8.4 times. A fourth level in the
 fit makes uncertainties wider (5.2 for 3.6 times the error, on 300 figures with four levels) and
 covers no more.

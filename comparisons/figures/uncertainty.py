@@ -22,7 +22,7 @@ refinement has not shown yet shows in several parts at once. So it is for a mode
 effects and model errors, and for points of maps.
 
 A difference of two solutions on the same pressure elements, or its norm, is a figure with a
-sequence of its own: what these elements leave out is in both. Against exact answers (zero, in 40
+sequence of its own: what these elements leave out is in both. Against exact values (zero, in 40
 figures of smooth and rough contacts that both models solved) all are covered so, on median by 4.8
 times the error; by the sum of both models' own discretisations, 18 times. What they lack of a crest
 is not in both alike: it counts in the difference as in either model.

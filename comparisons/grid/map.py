@@ -56,7 +56,7 @@ KINDS = {  # of points, in words
     INCONCLUSIVE: "inconclusive",
     FAILED: "failed",
 }
-# What shapes the answer at a point, beside versions of libraries.
+# What shapes the result at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/grid/points.py")
 CODE += tuple(f"comparisons/grid/{n}" for n in ("groups.py", "groups.toml", "map_error.py"))
 

@@ -1,7 +1,7 @@
 """The model error of the half-plane at the points of a map, and what the points say together.
 
 A point takes the levels that a run would take until the quantity that is shown is known to a third
-of the first tolerance: by the laws of cost, never by the clock, so that it has the same answer
+of the first tolerance: by the laws of cost, never by the clock, so that it has the same result
 wherever it is computed. The points of a map's content lie row by row, y outside, x inside."""
 
 import numpy as np

@@ -50,7 +50,7 @@ class Point:
     asked: Asked  # models, or a quantity: what is asked there
     scene: Scene | None  # None where there is none with these values
     why: str | None  # why there is none
-    key: str  # hash of everything that shapes the answer
+    key: str  # hash of everything that shapes the result
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def points_of(
     """Every combination of the axes' values, those of the last one inside.
 
     scene_at  the scene with these values; raises InputError where there is none
-    code      modules and folders of the project whose code shapes the answers
+    code      modules and folders of the project whose code shapes the results
     Raises SceneError for a value with which there is no scene."""
     program = [versions(), program_code(*code), asked]
     points = []
@@ -102,12 +102,12 @@ def refuse_values(points: Sequence[Point], whys: Mapping[str, str | None]) -> No
             raise SceneError(f"{why} (at {axis} = {value})")
 
 
-Solve = Callable[[Point], dict]  # the answer at a point that has a scene
+Solve = Callable[[Point], dict]  # the result at a point that has a scene
 WhyNot = Callable[[Point], str | None]  # why a point cannot be solved, None where it may
 
 
 def failed(why: object, is_wrong: bool = False) -> dict:
-    """The answer where there is none; `is_wrong`: there is no such scene, or it cannot be posed."""
+    """The result where there is none; `is_wrong`: there is no such scene, or it cannot be posed."""
     return {"status": FAILED, "why": one_line(str(why) or type(why).__name__), "wrong": is_wrong}
 
 
@@ -192,7 +192,7 @@ def solved_in(
     callback: ProgressCallback,
     why_not: WhyNot = lambda point: point.why,
 ) -> list[dict]:
-    """The answer at every point. Points that `out` has are not solved again, others are kept there;
+    """The result at every point. Points that `out` has are not solved again, others are kept there;
     one that kills its process has failed.
 
     files    that are to be written in `out`; the points are kept under the first one's name
@@ -224,7 +224,7 @@ def solved_in(
 
 
 def answered(solve: Solve, point: Point) -> dict:
-    """The answer at a point. What is refused, and what solvers and numbers run into, is an answer;
+    """The result at a point. What is refused, and what solvers and numbers run into, is a result;
     what is wrong with the machine is raised."""
     try:
         return solve(point)

@@ -58,7 +58,7 @@ SCHEMA = 2
 MOST = 10_000  # points
 ALLOWED = "FIELD=A,B,C, FIELD=FROM:TO:N, position=N or profile.file=FOLDER"
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
-# What shapes the answer at a point, beside versions of libraries.
+# What shapes the result at a point, beside versions of libraries.
 CODE = (*LEVEL_CODE, *JUDGING_CODE, "comparisons/output")
 CODE += tuple(f"comparisons/grid/{name}.py" for name in ("points", "sweep"))
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*", re.ASCII)
@@ -199,7 +199,7 @@ def make_sweep(
 
     workers  as `tasks_by` takes them
     Raises InputError for what cannot be written, for a value with which no scene can be posed, and
-    where no point has an answer."""
+    where no point has a result."""
     answers = solved_in(out, Sweep.FILES, request.points, solved, workers, callback, why_not)
     whys = failures(answers)
     if whys.total() == len(answers):
@@ -230,7 +230,7 @@ def why_not(point: Point) -> str | None:
 
 
 def solved(point: Point) -> dict:
-    """The answer at a point: its verdict, the rows of its figures, plausibility warnings, and its
+    """The result at a point: its verdict, the rows of its figures, plausibility warnings, and its
     quiescent zones."""
     from comparisons.runs.run import Known, run
 

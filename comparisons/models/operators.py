@@ -1,7 +1,7 @@
 """The compliance of a scene's surfaces without a mesh: half-planes, a layer, a coating.
 
 It is what analytic models solve with. It predicts where finite elements will touch, and is the
-model of their outer iteration, whose answer is checked on the finite elements themselves."""
+model of their outer iteration, whose result is checked on the finite elements themselves."""
 
 from collections.abc import Callable
 

@@ -173,7 +173,7 @@ def _brief(
 
 
 def _answer(outcome: Run, answer: str) -> "list[RenderableType]":
-    """An answer from outside beside its reference, and what is to be said of it."""
+    """An answer of another code beside its reference, and what is to be said of it."""
     table = _brief(answer_table(outcome, answer, brief=True))
     table.title = f"{answer}, from outside"
     return [table, *(plain_text(f"{n}: {text}") for n, text in answer_facts(outcome, answer))]

@@ -59,9 +59,9 @@ from comparisons.studies.answers.answer import Answer
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Modules that say what was solved. Those that draw it come afterwards: an answer waits for no page.
+# Modules that say what was solved. Those that draw it come afterwards: a result waits for no page.
 ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
-# What shapes levels, and the answers of studies that are kept beside them.
+# What shapes levels, and the results of studies that are kept beside them.
 CODE = (*LEVEL_CODE, *JUDGING_CODE)
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 LESS_MEMORY = "where memory ends again, allowed is a smaller budget.memory"
@@ -242,7 +242,7 @@ def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:
 
 
 def level_cache(out: Path | None, problem: Problem, plan: Plan) -> Cache:
-    """Finished levels of the run of `plan` that writes `out`, and answers of its studies: a run
+    """Finished levels of the run of `plan` that writes `out`, and results of its studies: a run
     that was stopped goes on from them. None writes and caches nothing."""
     if out is None:
         return NO_CACHE

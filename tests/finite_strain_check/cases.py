@@ -69,7 +69,7 @@ def solved(
 
 
 def kept(by_level: list[ContactFigures], levels: Sequence[float]) -> dict:
-    """Values for `values.json`, SI units: the finest mesh's figures, and as their uncertainties what
+    """Values for `values.json`, SI units: the finest mesh's figures, and as uncertainties what
     the last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
     fine, coarse = by_level[-1], by_level[-2]
 

@@ -71,7 +71,7 @@ class FirstScene(Printed):
 
     def tables(self) -> "RenderableType":
         """How the profile was read, its roughness, what is doubtful, guessed or an example, what to
-        do next, and the half-plane's answer on the coarsest level."""
+        do next, and the half-plane's result on the coarsest level."""
         from rich.console import Group
         from rich.text import Text
 
@@ -111,7 +111,7 @@ def _reading(info: ProfileInfo) -> str:
 
 
 def first_lines(scene: Scene) -> tuple[str, str]:
-    """The half-plane's answer on the coarsest level, and estimates of what it leaves out."""
+    """The half-plane's result on the coarsest level, and estimates of what it leaves out."""
     from comparisons.common.tasks import Here
     from comparisons.judging.model_error.study import early_lines
     from comparisons.models.model import scene_model

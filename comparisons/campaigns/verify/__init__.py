@@ -1,1 +1,1 @@
-"""Both models against everything whose exact answer is known."""
+"""Both models against everything whose exact solution is known."""

@@ -1,4 +1,4 @@
-"""Figures with an exact answer: coverage of their stated uncertainties, and orders of convergence.
+"""Figures with an exact value: coverage of their stated uncertainties, and orders of convergence.
 
 In: rows of cases that yield figures with exact values, and whether both are close (`compared`).
 Out: rows of what must hold of all of them together.

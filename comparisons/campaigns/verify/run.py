@@ -1,4 +1,4 @@
-"""Both models against everything whose exact answer is known: carried out, and shown.
+"""Both models against everything whose exact solution is known: carried out, and shown.
 
 Figures and model errors with their stated uncertainties, of scenes solved as `run` does (`scenes`)
 and of contacts on the library's operators (`operators`), smooth and rough (`rough`); observed

@@ -1,4 +1,4 @@
-"""Scenes whose exact answer is known, as a user would write them, and their solution.
+"""Scenes whose exact solution is known, as a user would write them, and their solution.
 
 Each is solved as `run` does, from the tables of a scene to a stated uncertainty, and judged by a
 closed form (or, on layers, by a table of ten digits) that the solution does not use. An elastic

@@ -1,7 +1,7 @@
 """The half-plane's model error: what separates it from finite elements with every effect.
 
 In: the comparison of both models, the couplings. Out: a judged figure a quantity, its effects, and
-the whole model's levels. The effects begin as soon as the half-plane is solved, whose answer is
+the whole model's levels. The effects begin as soon as the half-plane is solved, whose result is
 said then, beside estimates of what it leaves out."""
 
 import math
@@ -36,7 +36,7 @@ SAID_EARLY = ("peak_pressure", "contact_length", "tau1_max")
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
-    """Announce the effects once the half-plane is solved, and say what it answers; with the finite
+    """Announce the effects once the half-plane is solved, and say what it finds; with the finite
     elements beside it, which then leave a figure open, the whole model's further levels, too."""
     if "half_plane" in solved.runs:
         more = tasks.held(NAME, NAME, lambda: _announced(solved, tasks))

@@ -1,1 +1,1 @@
-"""The sections of single studies: one module each, named after the section, with its class SECTION."""
+"""The sections of single studies: one module each, named after its section, with its SECTION."""
