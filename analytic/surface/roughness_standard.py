@@ -1,8 +1,8 @@
 """Roughness parameters as drawings and instruments state them: filtered, over section lengths.
 
-The profile is filtered (`filters`), cut into at most five whole section lengths of one cut-off each
-in the middle of the trace, at least half a cut-off from its ends, and its parameters are those of
-ISO 21920-2:2021 (ISO 4287:1997 but for its name for the length), integrals of the spline exact.
+The profile is filtered (`filters`), and cut into at most five whole section lengths of one cut-off
+each in the middle of the trace, at least half a cut-off from its ends. Its parameters are those of
+ISO 21920-2:2021 (ISO 4287:1997 but for its name for the length), by exact integrals of the spline.
 
 The automatic cut-off is that of ISO 4288:1996, table 1 (ISO 21920-3:2021, classes Sc1 to Sc5):
 the shortest one whose Ra does not exceed the range that belongs to it."""

@@ -191,7 +191,7 @@ def test_the_run_in_flank_of_case_hardened_steel_holds():
 def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
     path = MEASURED / f"{trace}.csv"
     if not path.exists():
-        pytest.skip(f"{path.name} is not there: measured by others, it does not come along")
+        pytest.skip(f"{path.name} is not there: measured by others, it is not shipped")
     scene = tmp_path / "trace.toml"
     scene.write_text(
         'roller = {radius = "7.5706 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
