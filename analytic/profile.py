@@ -40,7 +40,7 @@ class Profile:
             raise ValueError("a profile's x must ascend strictly")
         if (least := float(step.min())) < CLOSEST:
             raise ValueError(f"samples are {least:.3g} m apart; allowed is {CLOSEST:g} m or more")
-        for name, values in (("place", self.x), ("height", self.height)):
+        for name, values in (("position", self.x), ("height", self.height)):
             if (most := float(np.abs(values).max())) > FARTHEST:
                 raise ValueError(f"a {name} is {most:.3g} m; allowed is up to {FARTHEST:g} m")
         if self.periodic and self.height[0] != self.height[-1]:

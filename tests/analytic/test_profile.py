@@ -63,7 +63,7 @@ def test_rounding_beyond_an_end_is_the_end():
         ([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], "at least 4 samples, not 3"),
         ([0.0, 1.0, 1.0, 2.0], [0.0] * 4, "ascend strictly"),
         ([0.0, 1e-40, 2e-40, 3e-40], [0.0] * 4, "1e-40 m apart; allowed is 1e-33 m or more"),
-        ([0.0, 1.0, 2.0, 1e40], [0.0] * 4, "a place is 1e.40 m; allowed is up to 1e.33 m"),
+        ([0.0, 1.0, 2.0, 1e40], [0.0] * 4, "a position is 1e.40 m; allowed is up to 1e.33 m"),
         ([0.0, 1.0, 2.0, 3.0], [0.0, 1e300, 0.0, 0.0], "a height is 1e.300 m"),
         ([0.0, 1.0, 2.0, 3.0], [0.0, np.nan, 0.0, 0.0], "finite"),
         ([0.0, 1.0, 2.0, 3.0], [0.0] * 5, "equal length"),

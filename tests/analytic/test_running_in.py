@@ -275,7 +275,7 @@ class TestEndsOfTheTrace:
         ({"positions": []}, "at least one position"),
         ({"positions": [0.0, 4.0 * A]}, "off the trace"),
         ({"constraints": Constraints(load=LOAD)}, "finite hardness"),
-        ({"constraints": Constraints(approach=1e-6, hardness=1e9)}, "takes a load"),
+        ({"constraints": Constraints(approach=1e-6, hardness=1e9)}, "needs a load"),
         ({"sweeps": 0}, "at least one sweep"),
         ({"pitch": 3.0 * A}, "fewer than three"),
     ],
