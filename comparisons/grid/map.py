@@ -7,7 +7,7 @@ a table."""
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -111,7 +111,11 @@ def _request(scene: Scene, x: Axis, y: Axis, quantity: str) -> Request:
         "y": y,
         "tolerances": list(TOLERANCES),
     }
-    return Request(content, points_of(axes, partial(scene_with, scene), quantity, CODE))
+
+    def scene_at(at: Mapping[str, float]) -> Scene:  # what is set second is set on the first
+        return scene_with(scene, {axis["group"]: at[axis["group"]] for axis in (x, y)})
+
+    return Request(content, points_of(axes, scene_at, quantity, CODE))
 
 
 def make_map(
