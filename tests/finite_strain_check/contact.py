@@ -109,8 +109,8 @@ class SurfacePair:
         return 0.5 * (np.append(lengths, 0.0) + np.insert(lengths, 0, 0.0))
 
     def start(self) -> State:
-        """Nothing has moved; everything within the reach is taken to touch."""
-        inside = np.abs(self.x) < 0.9 * self.reach
+        """Nothing has moved; everything within half the reach is taken to touch."""
+        inside = np.abs(self.x) < 0.5 * self.reach
         moved = [np.zeros_like(s.places) for s in self.solids]
         return State(moved, np.zeros(len(self.x)), inside, np.zeros_like(inside))
 

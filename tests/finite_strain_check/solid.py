@@ -136,8 +136,19 @@ class Solid:
         start = np.searchsorted(row, np.arange(self.count + 1)).astype(np.int32)
         return stays, at, start, column.astype(np.int32)
 
+    @cached_property
+    def _stiffness(self) -> csr_matrix:
+        """The tangent of the linear law."""
+        return self._linearised(np.zeros_like(self.places))[1]
+
     def linearised(self, u: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        """Internal forces of the free unknowns and their tangent, at displacements (n, 2)."""
+        """Internal forces of the free unknowns and their tangent, at displacements (n, 2) that the
+        held nodes do not have."""
+        if self.law == "linear":
+            return self._stiffness @ u[~self.held].ravel(), self._stiffness
+        return self._linearised(u)
+
+    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         gradient, weight = self.gradients
         elements = self.mesh.elements
         force = np.zeros((len(elements), 6, 2))

@@ -68,7 +68,7 @@ def test_finite_strain_is_that_of_the_projects_own_elements():
 def test_forces_and_tangent_with_friction(roller, radius):
     task = Task(WAVY, HEIGHT, STEEL, roller, radius, 48.0, 0.2)
     assert task.is_disc == (radius < 1000.0)
-    [(pair, state)] = solutions(task, (1.0,), 45.0)
+    [(pair, state)] = solutions(task, (2.0,), 45.0)
     residual, matrix = pair.assembled(state)
     assert np.abs(residual).max() < 1e-6 * task.load
     counts = [solid.count for solid in pair.solids]
@@ -128,8 +128,7 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
 
 
 @pytest.mark.parametrize(
-    ("name", "surface"),
-    [("rail steel", "waves"), ("aluminium alloy", "smooth"), ("fused silica", "waves")],
+    ("name", "surface"), [("aluminium alloy", "smooth"), ("fused silica", "waves")]
 )
 def test_measured_constants_are_those_of_the_projects_own_elements(name, surface):
     """Under a rigid roller, where the law changes the peak by 1 to 3 %."""
@@ -145,7 +144,7 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name, surface
     height = 0.05 * np.cos(2.0 * np.pi * x / 40.0) if surface == "waves" else 0.0 * x
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
-    result = cases.solved(task, (2.0, 1.0))[-1]
+    result = cases.solved(task, (4.0, 2.0))[-1]
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(1e9 * result.peak, rel=2e-3)
     assert level.contact_length == pytest.approx(
@@ -167,7 +166,7 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
     run = crosscheck.run(tables)
     x = np.linspace(-500.0, 500.0, 101)
     load = run.outcome.problem.hertz.load_per_length / 1e3
-    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (2.0, 1.0))[-1]
+    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (4.0, 2.0))[-1]
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         name, unit = cases.QUANTITIES[quantity]
         half_plane = run.figure(quantity, "half_plane").value
@@ -184,7 +183,7 @@ def test_strong_friction_is_those_of_the_projects_own_elements():
     scene, level, stress = by_the_project(48, body=body, load=hertz)
     load = scene.hertz.load_per_length / 1e3
     x = np.linspace(-500.0, 500.0, 101)
-    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (2.0, 1.0))[-1]
+    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (4.0, 2.0))[-1]
     assert level.solution.load == pytest.approx(scene.hertz.load_per_length, rel=1e-6)
     assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=3e-4)
     assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=3e-3)
