@@ -9,7 +9,7 @@ above the temperature far away (Jaeger 1942; Carslaw and Jaeger 1959, section 10
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -115,6 +115,7 @@ def line_source(
     return np.exp(-abs(peclet) * exponent) * k0e(scaled)
 
 
+@cache
 def _gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Points and weights on 0 to 1."""
     points, weights = np.polynomial.legendre.leggauss(count)
