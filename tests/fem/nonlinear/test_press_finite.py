@@ -23,10 +23,11 @@ from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
 from fem.contact.rigid_roller import CurrentContact, circle, parabola
+from fem.contact.system import ReusedFactor
 from fem.nonlinear import finite_deformation, hyperelastic
 from fem.nonlinear.finite_deformation import FiniteContact
 from fem.nonlinear.finite_plasticity import FinitePlasticBody
-from fem.nonlinear.newton import newton_by_contacts
+from fem.nonlinear.newton import ACCURACY, newton_by_contacts
 from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_finite import FiniteLoadHistory
 from fem.nonlinear.press_plastic import LoadHistory, plastic_fields
@@ -130,7 +131,7 @@ def test_work_is_elastic_and_plastic_and_friction(made):
 
 def punched(edges):
     """Pressures under a punch in a metal that is nearly rigid."""
-    elastic, approaches = Material(2e6, NU), [1.5e-5, 3e-5, 5e-5]
+    elastic, approaches = Material(2e6, NU), [3e-5, 5e-5]
 
     def contact_of(body, hats):
         return CurrentContact(body, hats, parabola(np.inf))
@@ -238,6 +239,7 @@ def sunk(roller, step, depth):
     plastic = FinitePlasticBody(body, SOFT)
     bodies = [(plastic, CurrentContact(body, hats, roller))]
     state = last = state_at_rest(bodies, (np.abs(at) < 0.5 * SUNK_EDGE).astype(float))
+    factor = ReusedFactor(ACCURACY)
     gap, rows = bodies[0][1].loaded(np.zeros_like(body.nodes), 0.0 * at)[0] / weights, []
     now, way = gap.min(), step
     while now < depth:
@@ -246,7 +248,7 @@ def sunk(roller, step, depth):
         start = replace(state, displacements=(moved,))
         try:
             end, _ = newton_by_contacts(
-                bodies, 0.0 * at, weights, start, approach=now + way, residual=1e-5
+                *(bodies, 0.0 * at, weights, start, None, now + way), residual=1e-5, factor=factor
             )
         except FemError:
             way *= 0.5
@@ -267,7 +269,7 @@ def sunk(roller, step, depth):
 def test_a_wedge_bears_what_its_slip_lines_bear():
     """A flank of 30 degrees to the surface; the level surface's slip lines would bear 8 % more."""
     tangent = np.tan(np.pi / 6.0)
-    half_width, pressure, rise = sunk(wedge(tangent), SUNK_EDGE * tangent / 8.0, 0.178)
+    half_width, pressure, rise = sunk(wedge(tangent), SUNK_EDGE * tangent / 10.0, 0.178)
     slip = TWICE_SHEAR * (1.0 + fan(np.pi / 3.0))
     late = half_width > 3.2 * SUNK_EDGE  # a hat that has just touched bears little of its share
     assert late.sum() > 4 and rise[-1] > 0.09
@@ -277,7 +279,7 @@ def test_a_wedge_bears_what_its_slip_lines_bear():
 
 def test_a_cylinder_is_followed_to_four_fifths_of_its_radius():
     """The material that rises beside the roller takes from what slip lines bear."""
-    half_width, pressure, rise = sunk(circle(1.0), 0.01, 0.25)
+    half_width, pressure, rise = sunk(circle(1.0), 0.007, 0.25)
     slip = on_a_cylinder(half_width)
     late = half_width > 0.66
     assert half_width[-1] > 0.77 and rise[-1] > 0.14
@@ -287,7 +289,7 @@ def test_a_cylinder_is_followed_to_four_fifths_of_its_radius():
 def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
     """Metal that rises beside the roller is left out. Loads alone lead to a contact of 0.3 of the
     radius: between two hats that touch they hardly rise."""
-    body, hats = soft(8.0, 0.8, 1.2)
+    body, hats = soft(8.0, 0.6, 1.2)
     start = 20.0 * np.sqrt(np.maximum(0.15**2 - hats[1:-1] ** 2, 0.0))
     contact = FiniteContact(body, hats, circle(1.0), start)
     slip = on_a_cylinder(0.5)
