@@ -30,7 +30,7 @@ from analytic.stress_state import Extremum, StressState
 from comparisons.cli import main
 from comparisons.common import tasks
 from comparisons.common.tasks import Tasks
-from comparisons.drawing.style import Picture
+from comparisons.drawing.style import Picture, drawing
 from comparisons.figures.quantity import MODELS, QUANTITIES
 from comparisons.judging.study import Case, Run, Solved, studied
 from comparisons.models.level import Level, MeshField, Solution, StressResult
@@ -176,6 +176,21 @@ def no_pictures() -> Callable[[Run], dict]:
     run: the page has all its words, and nothing to look at."""
     blank = Picture("data:image/svg+xml;base64,", "", "")
     return lambda run: {name: [blank] for name in PICTURES}
+
+
+@pytest.fixture(scope="session")
+def drawn_only(no_pictures: Callable[[Run], dict]) -> Callable[..., AbstractContextManager]:
+    """`with drawn_only("fields"):` of a report's pictures those named alone are drawn."""
+
+    @contextmanager
+    def of(*names: str) -> Iterator[None]:
+        def draw(run: Run) -> dict:
+            return no_pictures(run) | {name: PICTURES[name](run) for name in names}
+
+        with patch("comparisons.output.page.page.draw", draw), drawing():
+            yield
+
+    return of
 
 
 @pytest.fixture(scope="module")

@@ -66,7 +66,7 @@ def test_nothing_that_did_not_converge_passes(smooth_outcome: Run):
     assert "did not converge" in suite[0].find("error").get("message")
 
 
-def test_the_command_leaves_it_where_it_is_told(tmp_path, capsys):
+def test_the_command_leaves_it_where_it_is_told(tmp_path, capsys, undrawn):
     """A run of one model judges nothing; an impossible path is refused before it begins."""
     arguments = ["run", "smooth", "--models", "half-plane", "--out", str(tmp_path / "out")]
     assert main([*arguments, "--junit", str(tmp_path)]) == ExitStatus.BAD_INPUT

@@ -8,6 +8,7 @@ import pytest
 from matplotlib import pyplot
 from scenes import WAVY_LAYER
 
+from comparisons.drawing import style
 from comparisons.drawing.style import collected_figures
 from comparisons.judging.study import Run
 from comparisons.output.page.page import render
@@ -120,9 +121,10 @@ def wavy_page(wavy_outcome: Run, rendered: Callable[[Run], str]) -> Page:
     return Page(rendered(wavy_outcome))
 
 
-@pytest.fixture(scope="session")
-def smooth_page(smooth_outcome: Run, rendered: Callable[[Run], str]) -> Page:
-    return Page(rendered(smooth_outcome))
+@pytest.fixture
+def unpainted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are made with their words and curves, and no image of them."""
+    monkeypatch.setattr(style, "svg", lambda drawn: "")
 
 
 @pytest.fixture(scope="session")

@@ -27,7 +27,9 @@ def as_it_runs(tmp_path, monkeypatch):
     monkeypatch.setattr(page, "attempted", blocks.attempted)
 
 
-def test_it_is_named_in_its_place_and_all_else_is_there(tmp_path, monkeypatch, capsys, page_of):
+def test_it_is_named_in_its_place_and_all_else_is_there(
+    tmp_path, monkeypatch, capsys, page_of, unpainted
+):
     assert main(RUN) == 0
     before = FIGURES.search((tmp_path / "out/result.json").read_text())[0]
     images = len(page_of((tmp_path / "out/report.html").read_text()).images)
@@ -56,7 +58,7 @@ def test_it_is_named_in_its_place_and_all_else_is_there(tmp_path, monkeypatch, c
     assert {path.name for path in tmp_path.iterdir()} == {"out"}
 
 
-def test_a_page_that_fails_costs_no_more_than_the_page(tmp_path, monkeypatch, capsys):
+def test_a_page_that_fails_costs_no_more_than_the_page(tmp_path, monkeypatch, capsys, undrawn):
     assert main(RUN) == 0
     with monkeypatch.context() as patch:
         patch.setattr(page, "rendered", fails)

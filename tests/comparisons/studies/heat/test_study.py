@@ -23,7 +23,6 @@ from scenes import (
 )
 
 from comparisons.drawing.blocks import TextTable
-from comparisons.drawing.style import drawing
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.presentation import lines_of, parts_of
 from comparisons.models.problem import Levels
@@ -133,12 +132,9 @@ STRESSED = QUICK | {
 
 
 @pytest.fixture(scope="module")
-def stressed(tmp_path_factory, no_pictures):
-    def draw(made):
-        return no_pictures(made) | {name: own(made) for name, own in STUDY.pictures.items()}
-
+def stressed(tmp_path_factory, drawn_only):
     out = tmp_path_factory.mktemp("stressed") / "out"
-    with patch("comparisons.output.page.page.draw", draw), drawing():
+    with drawn_only(*STUDY.pictures):
         return run(resolved(STRESSED), out, MODELS)
 
 
