@@ -2,14 +2,17 @@
 
 import json
 import os
+import pickle
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partialmethod
 from itertools import takewhile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
+from unittest.mock import patch
 
 import numpy as np
 
@@ -18,6 +21,7 @@ if TYPE_CHECKING:
     from comparisons.figures.figure import Figure, Part
     from comparisons.judging.study import Run
     from comparisons.models.level import Level, Solution
+    from comparisons.models.model import Model
     from comparisons.models.problem import Levels, Problem
     from comparisons.scenes.scene import Scene
 
@@ -78,6 +82,9 @@ WAVY_LAYER = {
 # Finished runs by what they are of, the latest of this session.
 RUNS: "dict[tuple, Run]" = {}
 MOST_RUNS = 12
+# Solved levels by what they are of, the latest of this session.
+LEVELS: "dict[bytes, dict[float, Level]]" = {}
+MOST_LEVELS = 48
 
 
 def reference(name: str) -> dict:
@@ -171,19 +178,40 @@ def run_of(
     scene: "dict | Scene", *models: str, levels: "Levels | None" = None, **sections: dict
 ) -> "Run":
     """The finished run of a scene, or of tables with some fields of sections changed, by both
-    models or those named; nothing is written. Tests that ask for the same one share it.
+    models or those named; nothing is written. Tests that ask for the same one share it, and of
+    others the levels that are the same.
 
     levels  so many, in place of those that figures take"""
     from comparisons.figures.quantity import MODELS
+    from comparisons.models.model import Model
     from comparisons.runs.run import Known, run
 
+    solve = Model._solved
     scene = resolved(changed(scene, **sections)) if isinstance(scene, dict) else scene
     key = json.dumps(scene.tables), scene.folder, models, levels
     if key not in RUNS:
         while len(RUNS) >= MOST_RUNS:
             RUNS.pop(next(iter(RUNS)))
-        RUNS[key] = run(scene, None, models or MODELS, known=Known(levels=levels))
+        with patch("comparisons.models.model.Model._solved", partialmethod(_solved_once, solve)):
+            RUNS[key] = run(scene, None, models or MODELS, known=Known(levels=levels))
     return RUNS[key]
+
+
+def _solved_once(
+    model: "Model", solve: Callable, here: object, problem: "Problem", pitch: float, stages: object
+) -> dict[float, "Level"]:
+    """Levels that `solve`, the model's own, has solved once: neither how a scene is judged nor the
+    time that it is given changes them."""
+    tables = problem.scene.tables
+    tables = {n: t for n, t in tables.items() if n not in ("title", "tolerance", "budget")}
+    how = model.solver, sorted(model.effects), model.half_block, model.times, model.fields
+    posed = replace(problem, scene=None, levels=None)
+    key = pickle.dumps((how, json.dumps(tables), problem.scene.budget.memory, posed, pitch))
+    if key not in LEVELS:
+        while len(LEVELS) >= MOST_LEVELS:
+            LEVELS.pop(next(iter(LEVELS)))
+        LEVELS[key] = solve(model, here, problem, pitch, stages)
+    return LEVELS[key]
 
 
 def finite_elements(
