@@ -112,6 +112,7 @@ class Tasks:
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict[ProcessWorker, str] = field(default_factory=dict)
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
+    _unkept: dict[str, object] = field(default_factory=dict)  # results that are to be kept
     _tasks: dict[str, _Task] = field(default_factory=dict)
     # with what their tasks share
     _workers: dict[ProcessWorker, object] = field(default_factory=dict)
@@ -216,6 +217,7 @@ class Tasks:
         else:
             task = self._tasks[key]
             self._answer(key, *_answered(task.work, self._here, *task.args))
+        self._keep()
 
     def _begin(self) -> None:
         """Let workers begin, where there are to be any and the tasks are worth them."""
@@ -313,7 +315,12 @@ class Tasks:
         self._answers[key] = good, answer
         self._done += self._tasks[key].seconds
         if good and is_new:
-            self.kept.save(key, answer)
+            self._unkept[key] = answer
+
+    def _keep(self) -> None:
+        """Write what is new, while workers have their next tasks: nobody waits for the disk."""
+        while self._unkept:
+            self.kept.save(*self._unkept.popitem())
 
     def _tell(self, stage: str) -> None:
         left = sum(task.seconds for task in self.left().values())
