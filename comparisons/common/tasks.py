@@ -31,7 +31,7 @@ from comparisons.common.progress import ProgressCallback, Step, machine_memory, 
 Held = TypeVar("Held")
 
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
-WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
+WORTH_A_FORK, WORTH_A_START = 0.05, 10.0
 SOON = 0.02  # seconds in which a task comes that is already known
 SILENT = 30.0  # seconds without a word of any worker, after which its stage is told again
 PREPARATION = 0.2  # seconds that processes save where they have something to prepare
