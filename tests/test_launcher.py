@@ -49,7 +49,8 @@ esac
 """
 DPKG_QUERY = r"""#!/bin/bash
 for name in "${@:4}"; do
-    if [ "$name" != "${MISSING-}" ] || [ -e "$INSTALLED" ]; then echo installed; fi
+    if [ "$name" != "${MISSING-}" ] || [ -e "$INSTALLED" ]; then echo installed
+    else echo "dpkg-query: no packages found matching $name" >&2; fi
 done
 """
 APT_GET = r"""#!/bin/bash
