@@ -237,9 +237,7 @@ def body(edge, radius=None, modulus=1.0, aside=0.0):
 class Pressed:
     """Two bodies of a/R = `curvature`: the figures of the rough one."""
 
-    def __init__(
-        self, curvature, edge=0.05, moduli=(1.0, 1.0), on_rough=False, friction=0.0, aside=0.0
-    ):
+    def __init__(self, curvature, edge, moduli=(1.0, 1.0), on_rough=False, friction=0.0, aside=0.0):
         self.modulus = MODULUS / sum(1.0 / m for m in moduli)
         self.peak = 0.5 * self.modulus * curvature
         count = round(1.3 / edge)
@@ -278,7 +276,7 @@ pressed = cache(Pressed)
 class TestPressed:
     def test_newton_takes_few_steps_with_friction_too(self):
         for friction in (0.0, 0.2):
-            state = pressed(0.1, friction=friction).state
+            state = pressed(0.1, 0.1, friction=friction).state
             assert state.solution.iterations <= 6
             assert len(state.solution.residuals) == 1
 
@@ -286,12 +284,12 @@ class TestPressed:
         """Two linear bodies on the same block: the difference vanishes in proportion to p0/E."""
         left = []
         for curvature in (0.04, 0.02, 0.01):
-            case = pressed(curvature)
+            case = pressed(curvature, 0.1)
             compliances = [
                 FiniteElementCompliance(part, case.hats) for part in (case.rough, case.rough)
             ]
             weights = np.diff(case.hats)[1:]
-            gap = weights * curvature * (case.x**2 / 2.0 + 0.05**2 / 12.0)
+            gap = weights * curvature * (case.x**2 / 2.0 + 0.1**2 / 12.0)
             bodies = [(LinearResponse(c.body), LinearContact(c)) for c in compliances]
             rest = state_at_rest(bodies, case.start)
             linear = solve_nonlinear_contact(bodies, gap, weights, rest, case.load).state.pressure
@@ -300,7 +298,7 @@ class TestPressed:
         assert np.all(np.abs(orders - 1.0) < 0.25), left
 
     def test_a_very_stiff_roller_is_the_rigid_one(self):
-        case = pressed(0.1, moduli=(1.0, 1e6))
+        case = pressed(0.1, 0.1, moduli=(1.0, 1e6))
         rigid = press_finitely(case.rough, case.hats, parabola(10.0), case.start, load=case.load)
         np.testing.assert_allclose(
             case.state.pressure, rigid.pressure, atol=1e-5 * rigid.pressure.max()
@@ -309,15 +307,15 @@ class TestPressed:
 
     def test_body_and_roller_can_be_exchanged(self):
         """The cylinder as the rough body, the flat as the roller."""
-        case, other = pressed(0.1), pressed(0.1, on_rough=True)
+        case, other = pressed(0.1, 0.05), pressed(0.1, 0.05, on_rough=True)
         assert case.pressure.max() == pytest.approx(other.pressure.max(), rel=2e-4)
         assert case.pressure.max() == pytest.approx(1.0107, abs=5e-4)
         assert case.length == pytest.approx(other.length, rel=3e-4)
         np.testing.assert_allclose(case.pressure, case.pressure[::-1], atol=5e-3)
 
     def test_unlike_bodies_can_be_exchanged(self):
-        case = pressed(0.1, moduli=(1.0, 3.0), friction=0.2)
-        other = pressed(0.1, moduli=(3.0, 1.0), on_rough=True, friction=-0.2)
+        case = pressed(0.1, 0.05, moduli=(1.0, 3.0), friction=0.2)
+        other = pressed(0.1, 0.05, moduli=(3.0, 1.0), on_rough=True, friction=-0.2)
         assert case.pressure.max() == pytest.approx(other.pressure.max(), rel=2e-3)
         assert case.length == pytest.approx(other.length, rel=2e-3)
         at = np.linspace(-0.8, 0.8, 81)
@@ -328,14 +326,14 @@ class TestPressed:
         assert np.abs(here - here[::-1]).max() > 8e-3
 
     def test_edges_of_the_roller_that_end_elsewhere_do_not_matter(self):
-        case, other = pressed(0.1), pressed(0.1, aside=0.37 * 0.05)
+        case, other = pressed(0.1, 0.1), pressed(0.1, 0.1, aside=0.37 * 0.1)
         inner = np.abs(case.x) < 0.9
         np.testing.assert_allclose(case.pressure[inner], other.pressure[inner], atol=1e-3)
 
     @pytest.mark.parametrize("on_rough", [False, True])
     def test_the_load_is_the_energys_derivative_by_the_approach(self, on_rough):
         """Energy: both bodies' strain energy, by a quadrature of its own."""
-        case = pressed(0.1, on_rough=on_rough)
+        case = pressed(0.1, 0.1, on_rough=on_rough)
         against = FiniteElementCompliance(case.roller, case.hats)
         energies, h = [], 1e-3 * case.state.approach
         for approach in case.state.approach + np.array([-h, h]):
@@ -346,9 +344,8 @@ class TestPressed:
             energies.append(sum(map(neo_hookean_energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 
-    @pytest.mark.parametrize("on_rough", [False, True])
-    def test_figures_converge_with_the_edges(self, on_rough):
-        cases = [pressed(0.1, edge, on_rough=on_rough) for edge in (0.1, 0.05, 0.025)]
+    def test_figures_converge_with_the_edges(self):
+        cases = [pressed(0.1, edge) for edge in (0.1, 0.05, 0.025)]
         peak = np.array([case.pressure.max() for case in cases])
         tau1 = np.array([case.tau1 for case in cases])
         assert abs(peak[1] - peak[2]) < 0.5 * abs(peak[0] - peak[1])
