@@ -23,6 +23,7 @@ LEFT, RIGHT = 0.68, 0.22  # inches beside a mesh
 LEAST, MOST = 0.8, 1.9  # inches: its height
 NARROWEST = 1.1  # inches: its width, for the numbers of its axis
 ROOM = 0.3  # beside the contact, of half of it
+EDGES = 256  # in one line, with gaps: each line costs by itself
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
 
 
@@ -77,7 +78,11 @@ def _drawn(points: np.ndarray, pairs: np.ndarray, view: Sequence[float]) -> "Fig
     if lengths.max() * width < FINE * (high - low):
         return None
     drawn, [axes] = panels(THIRD, [(0.14, height)], LEFT, THIRD - LEFT - width)
-    axes.add_collection(LineCollection(ends, colors=[COLOUR], linewidths=0.4, rasterized=True))
+    gaps = np.pad(ends, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)
+    some = np.array_split(gaps, -(-len(gaps) // EDGES))
+    lines = [edges.reshape(-1, 2) for edges in some]
+    edges = LineCollection(lines, colors=[COLOUR], linewidths=0.4, rasterized=True)
+    axes.add_collection(edges, autolim=False)
     top = min(0.0, max(ends[:, :, 1].min(), -0.2 * depth)) - 0.03 * depth
     labels = {"xlabel": f"x [{unit.name}]", "ylabel": f"z [{unit.name}]"}
     axes.set(xlim=(low, high), ylim=(depth, top), **labels)
