@@ -51,7 +51,7 @@ OF_STRESS = [name for name, quantity in QUANTITIES.items() if quantity.needs_str
 class MurnaghanSection(SceneSection):
     """Constants of Murnaghan's law."""
 
-    l: Constant = Field(description="third-order constant")  # noqa: E741
+    l: Constant = Field(description="third-order constant")  # noqa: E741 (as the law names it)
     m: Constant = Field(description="third-order constant")
     n: Constant = Field(description="third-order constant")
 
