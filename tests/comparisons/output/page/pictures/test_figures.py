@@ -85,7 +85,7 @@ def test_the_mesh_is_drawn_downwards_with_every_edge(wavy, wavy_outcome):
     assert low > high  # z downwards
     assert whole.get_xlabel() == "x [mm]"
     [edges] = whole.collections
-    drawn = 1e-3 * np.array(edges.get_segments())
+    drawn = 1e-3 * np.concatenate(edges.get_segments()).reshape(-1, 2, 2)
     lengths = np.hypot(*(drawn[:, 1] - drawn[:, 0]).T)
     corners = mesh.triangles[:, :3]
     pairs = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2))
