@@ -92,7 +92,7 @@ def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
     distributed = pytest.importorskip(
         "distributed", reason="Dask is not installed: pip install distributed"
     )
-    with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with distributed.LocalCluster(1, threads_per_worker=1, dashboard_address=None) as cluster:
         where = cluster.scheduler_address
         out = tmp_path / "out"
         assert main(["map", str(scene), *ASKED, "--workers", where, "--out", str(out)]) == 0

@@ -49,7 +49,8 @@ def scene(tmp_path) -> Path:
     path = tmp_path / "gear.toml"
     path.write_text(SCENE)
     cut(tmp_path / "traces", 5)
-    (tmp_path / "traces" / WRONG).write_text("no trace\n")
+    # of words an instrument's reader would be asked, in a process of its own
+    (tmp_path / "traces" / WRONG).write_text("0,0\n1,1\n")
     return path
 
 
