@@ -80,7 +80,7 @@ def test_three_per_cent_more_differ(answered, curve):
     assert "only answers from outside were compared" in printed
 
 
-def test_own_finite_elements_field_agrees(answered, tmp_path):
+def test_own_finite_elements_field_agrees(answered, tmp_path, undrawn):
     """It is read as any code's file: from the mesh, and compared with values off its nodes."""
     run(resolved(QUICK), tmp_path / "own", ("finite_element",))
     section = {"file": str(tmp_path / "own/finite_element/stress.vtu")}

@@ -38,8 +38,9 @@ def values(outcome, source: str = "half_plane") -> dict[str, float]:
 
 
 @pytest.fixture(scope="module")
-def cycled(tmp_path_factory):
-    return run(resolved(SMOOTH), tmp_path_factory.mktemp("slip") / "out", MODELS)
+def cycled(tmp_path_factory, drawn_only):
+    with drawn_only(*PARTIAL_SLIP.pictures):
+        return run(resolved(SMOOTH), tmp_path_factory.mktemp("slip") / "out", MODELS)
 
 
 def test_a_cycle_is_covered_by_what_is_stated(cycled):
