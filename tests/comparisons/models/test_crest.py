@@ -142,14 +142,14 @@ def test_roughness_finer_than_the_elements_is_bounded(seed):
     }
     run = run_of(tables, "half_plane", levels=Levels(3))
     figure = run.figures.one(study="contact", quantity="peak_pressure")
-    fine = half_plane_at(run.problem, run.runs["half_plane"].finest.grid.pitch / 64.0)
+    fine = half_plane_at(run.problem, run.runs["half_plane"].finest.grid.pitch / 32.0)
     error = abs(fine.solution.pressure.max() / figure.value - 1.0)
     assert 0.4 < error < figure.numerical < 2.0 * error
 
 
 def test_what_meshes_and_hats_lack_of_a_crest_does_not_cancel(tmp_path):
     """Half-plane and finite elements under one period of wedges would agree."""
-    x = np.linspace(0.0, 1e-3, 20001)
+    x = np.linspace(0.0, 1e-3, 10001)
     z = -0.01 * np.abs(x - 0.5e-3)
     path = tmp_path / "wedges.csv"
     np.savetxt(path, np.column_stack([x, z]), "%.17g", ",", header="x [m],z [m]", comments="")
@@ -161,7 +161,7 @@ def test_what_meshes_and_hats_lack_of_a_crest_does_not_cancel(tmp_path):
         "load": {"mean_pressure": 1e8},
         "budget": {"effects": False},
     }
-    run = run_of(tables, levels=Levels(3))
+    run = run_of(tables, levels=Levels(2))
     difference = run.figures.one(study="comparison", quantity="peak_pressure")
     assert 0.01 < abs(difference.value) < difference.numerical
     assert difference.numerical == pytest.approx(

@@ -77,26 +77,25 @@ def l2_error(body, temperature, wave):
     return np.sqrt((area * (value - wave.temperature(place[..., 0], place[..., 1])) ** 2).sum())
 
 
-@pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
+@pytest.mark.parametrize("velocity", [5.0, -40.0])
 @pytest.mark.parametrize(("degree", "order"), [(1, 2.0), (2, 3.0), (3, 4.0)])
 def test_manufactured_solution_on_a_block(degree, order, velocity):
     """The surface takes the flux; the other sides have the temperature."""
     wave, errors = Wave(), []
-    for cells in (8, 16, 32):
+    for cells in (16, 32):
         mesh = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
         body = thermal_body(mesh, MATERIAL, degree=degree)
         moving = Conduction(body, velocity, Surroundings("held", "held"))
         load = load_of(wave, mesh, velocity, np.inf, degree)
         rise = steady(moving, load, wave.temperature(*body.nodes.T))
         errors.append(l2_error(body, rise, wave))
-    orders = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert orders[-1] == pytest.approx(order, abs=0.12)
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.12)
     assert errors[-1] < {1: 1e-3, 2: 2e-5, 3: 2e-7}[degree]
 
 
 def test_manufactured_solution_on_a_turning_disc():
     wave, errors = Wave(), []
-    for cells in (6, 12, 24):
+    for cells in (12, 24):
         flat = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
         mesh = bent(flat, 1.6)
         body = thermal_body(mesh, MATERIAL, radius=1.6)
@@ -104,8 +103,7 @@ def test_manufactured_solution_on_a_turning_disc():
         load = load_of(wave, mesh, 10.0, 1.6, 2)
         rise = steady(turning, load, wave.temperature(*body.nodes.T))
         errors.append(l2_error(body, rise, wave))
-    orders = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert orders[-1] == pytest.approx(3.0, abs=0.15)
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(3.0, abs=0.15)
 
 
 def under_band(peclet, layers):
@@ -199,7 +197,7 @@ def turning(x, radius, velocity):
     wave[0] = wave[1]
     nu, z = radius * wave, radius * np.sqrt(1j * wave * velocity)
     ratio = np.zeros_like(z)  # I_{nu+1} / I_nu, by its continued fraction
-    for more in range(400, 0, -1):
+    for more in range(100, 0, -1):
         ratio = 1.0 / (2.0 * (nu + more) / z + ratio)
     resistance = radius / (nu + z * ratio)
     resistance[0] = 0.0
