@@ -179,7 +179,7 @@ def run_of(
 ) -> "Run":
     """The finished run of a scene, or of tables with some fields of sections changed, by both
     models or those named; nothing is written. Tests that ask for the same one share it, and of
-    others the levels that are the same.
+    others the levels that are the same. No other elements are solved to show what they cost.
 
     levels  so many, in place of those that figures take"""
     from comparisons.figures.quantity import MODELS
@@ -192,7 +192,10 @@ def run_of(
     if key not in RUNS:
         while len(RUNS) >= MOST_RUNS:
             RUNS.pop(next(iter(RUNS)))
-        with patch("comparisons.models.model.Model._solved", partialmethod(_solved_once, solve)):
+        with (
+            patch("comparisons.models.model.Model._solved", partialmethod(_solved_once, solve)),
+            patch("comparisons.judging.ladder.cost.other_elements", lambda *_: {}),
+        ):
             RUNS[key] = run(scene, None, models or MODELS, known=Known(levels=levels))
     return RUNS[key]
 

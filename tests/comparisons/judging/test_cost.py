@@ -22,7 +22,7 @@ def rows_of(outcome) -> list[dict]:
 
 
 def test_every_level_of_a_run_is_a_row_measured_by_the_finest():
-    outcome = run_of(PLAIN)
+    outcome = run(resolved(PLAIN), None, MODELS)
     rows, [finest] = rows_of(outcome), [r for r in rows_of(outcome) if r["peak_pressure"] is None]
     levels = [level for model in outcome.runs.values() for level in model.levels]
     coarse = [r["pitch"] for r in rows if r["model"] in (P1, "finite elements, P3")]
