@@ -207,7 +207,10 @@ def _solved_once(
     time that it is given changes them."""
     tables = problem.scene.tables
     tables = {n: t for n, t in tables.items() if n not in ("title", "tolerance", "budget")}
-    how = model.solver, sorted(model.effects), model.half_block, model.times, model.fields
+    # effects of finite elements are the scene's
+    effects = sorted(model.effects) if model.solver == "analytic" else []
+    fields = model.fields and problem.window is not None
+    how = model.solver, effects, model.half_block, model.times, fields
     posed = replace(problem, scene=None, levels=None)
     key = pickle.dumps((how, json.dumps(tables), problem.scene.budget.memory, posed, pitch))
     if key not in LEVELS:

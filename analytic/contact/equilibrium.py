@@ -121,7 +121,7 @@ class EquilibriumProblem:
         low, high = -np.max(inside), most - np.min(inside)
         for _ in range(BISECTIONS):
             shift = 0.5 * (low + high)
-            carried = weights @ np.clip(inside + shift, 0.0, caps)
+            carried = weights @ np.minimum(np.maximum(inside + shift, 0.0), caps)
             low, high = (shift, high) if carried < wanted else (low, shift)
         feasible[free] = np.clip(inside + high, 0.0, caps)
         return feasible

@@ -27,6 +27,7 @@ from analytic.operators.tangential import hat_sign
 
 _ORDER = 24  # points of a panel, and of an interval of d; their errors stay below rounding
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(_ORDER)
+_FEW, _FEW_WEIGHTS = np.polynomial.legendre.leggauss(12)  # of a smooth function on half a hat
 _HIGHEST = 32.0  # w beyond which e^-2w is nothing
 _FADED = 1e6  # w (h/t)^(4/3) beyond which the integral of sinc^4 alone is below 1e-17
 _TURN = np.exp(1j * np.pi / 6.0)  # of the path; the poles of f lie beyond 50 degrees
@@ -139,9 +140,8 @@ def wave_panels(highest: float, reach: float, finest: float) -> tuple[np.ndarray
 def _mean_of_depth(distance: np.ndarray, depth: float, odd: bool) -> np.ndarray:
     """int e^-ks cos kx dk/k, that is -ln sqrt(d^2 + depth^2), or with the sine atan(d/depth).
     Averaged over two hats; all in pitches, depth >= 3."""
-    points, weights = np.polynomial.legendre.leggauss(12)
-    place = np.concatenate([0.5 * (1.0 + points), 1.5 + 0.5 * points])
+    place = np.concatenate([0.5 * (1.0 + _FEW), 1.5 + 0.5 * _FEW])
     spline = np.where(place < 1.0, 4.0 - 6.0 * place**2 + 3.0 * place**3, (2.0 - place) ** 3) / 6.0
-    share = np.tile(0.5 * np.tile(weights, 2) * spline, 2)
+    share = np.tile(0.5 * np.tile(_FEW_WEIGHTS, 2) * spline, 2)
     both = distance[:, None] + np.concatenate([-place, place])
     return (np.arctan(both / depth) if odd else -np.log(np.hypot(both, depth))) @ share

@@ -15,7 +15,8 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
 from analytic.profile import Profile
 
-GAUSS_POINTS = 7  # exact up to degree 13; the fourth power of a cubic has degree 12
+# Exact up to degree 13; the fourth power of a cubic has degree 12.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(7)
 MAX_RESAMPLED = 2**22  # 32 MB
 SLOPE_SHARE = 0.99  # of its variance, that waves resolved by pressure elements have
 FLAT = 64.0 * np.finfo(float).eps  # slopes below this part of max |height| / spacing are rounding
@@ -150,10 +151,9 @@ def bearing_curve(profile: Profile, count: int = 1000) -> tuple[np.ndarray, np.n
 
 def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Gauss points (m, n-1) [m] of every interval, and their weights, which add up to 1."""
-    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
     steps = np.diff(x)
-    points = x[:-1] + 0.5 * (nodes[:, None] + 1.0) * steps
-    return points, 0.5 * weights[:, None] * steps / (x[-1] - x[0])
+    points = x[:-1] + 0.5 * (_NODES[:, None] + 1.0) * steps
+    return points, 0.5 * _WEIGHTS[:, None] * steps / (x[-1] - x[0])
 
 
 def crossings(piecewise: PPoly, value: float = 0.0) -> np.ndarray:

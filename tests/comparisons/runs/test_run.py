@@ -14,7 +14,18 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 from rich.console import Console
-from scenes import QUICK, SMOOTH, STEEL, as_toml, changed, problem, python, resolved, without_cost
+from scenes import (
+    KNOWN_STEEL,
+    QUICK,
+    SMOOTH,
+    STEEL,
+    as_toml,
+    changed,
+    problem,
+    python,
+    resolved,
+    without_cost,
+)
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError, SceneError
@@ -226,8 +237,8 @@ def test_a_plan_says_what_the_run_then_says_and_flow_how_far_it_is(monkeypatch):
     monkeypatch.setattr("comparisons.runs.run.cores", lambda: 1)
     said, body = [], {**STEEL, "yield_stress": 1e9}
     pressed = {"load": {"hertz_peak_pressure": 3e9}, "resolution": {"elements": 4, "levels": 2}}
-    pressed |= {"budget": {"time": 5.0}, "tolerance": {"peak_pressure": 0.02}}
-    flows = QUICK | {"roller": {"radius": 8e-3, "rigid": True}, "finite_element": {}, "body": body}
+    pressed |= {"budget": {"time": 3.0}, "tolerance": {"peak_pressure": 0.02}}
+    flows = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}, "finite_element": {}, "body": body}
     scene = resolved(flows | pressed)
     run(scene, None, MODELS, said.append)
     [total] = [line for line in said if line.startswith("planned: ")]
@@ -298,7 +309,8 @@ def change(path, alter):
 @pytest.fixture(scope="module")
 def both(tmp_path_factory):
     """The folder of a run of both models."""
-    return recorded(tmp_path_factory.mktemp("both") / "out", models=MODELS)
+    tables = SMALL | {"roller": {"radius": 7.5706e-3, "rigid": True}, "body": KNOWN_STEEL}
+    return recorded(tmp_path_factory.mktemp("both") / "out", tables, MODELS)
 
 
 @pytest.fixture(scope="module")

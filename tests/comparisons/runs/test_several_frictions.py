@@ -20,7 +20,7 @@ TABLES = {
     "body": {**STEEL, "law": "neo-hookean", "yield_stress": 1.2e9},
     "load": {"hertz_peak_pressure": 1.5e9, "friction": FRICTIONS},
     "stress": {"points": [41, 15]},
-    "resolution": {"pitch": "6 um", "levels": 2},
+    "resolution": {"pitch": "12 um", "levels": 2},
     "budget": {"time": 1e-6, "effects": False},
 }
 CASES = {

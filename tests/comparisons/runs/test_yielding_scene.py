@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import meshio
 import numpy as np
 import pytest
-from scenes import STEEL, changed, finite_elements, problem, resolved, run_of
+from scenes import STEEL, changed, finite_elements, problem, resolved
 
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.numbers import decimal, significant
@@ -17,6 +17,7 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.loaded import refuse_cut_off
 from comparisons.models.finite_element.mesh import Refinement, expected, flow_increments
 from comparisons.models.level import flowing_contact
+from comparisons.models.posing import problem_of
 from comparisons.output.page.pictures.stresses import plastic_strain_pictures
 from comparisons.runs.run import run
 from comparisons.scenes.scene import Scene
@@ -147,7 +148,7 @@ def deep(friction=0.0):
 def test_contact_spreads_beyond_one_and_a_half_half_widths(friction):
     """Contact spreads as far as flow takes it: pressures end before the grid does."""
     posed = problem(deep(friction))
-    level, a = finite_elements(posed), posed.hertz.half_width
+    level, a = finite_elements(posed, travel=4.0), posed.hertz.half_width
     assert level.contact_length > 3.1 * a
     assert not level.solution.pressure[[0, -1]].any()
     assert level.solution.pressure.max() < 4.0 * YIELD_STRESS
@@ -166,9 +167,9 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
 def test_the_shipped_scene_is_solved_below_its_elastic_roller():
     """Its pressure elements reach beyond the fine mesh; a third beyond first flow the body bears
     less than Hertz's peak, on a longer contact."""
-    scene = Scene.read("yielding").changed("resolution.levels", 2)  # of three, which cost six times
-    [finite_element] = run_of(scene, "finite_element").runs.values()
-    level, hertz = finite_element.finest, 2.4e9
+    posed = problem_of(Scene.read("yielding"))
+    # on the second of its levels; the third costs six times as much
+    level, hertz = finite_elements(posed, posed.pitches[1]), 2.4e9
     assert level.solution.converged
     assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz
     assert 855e-6 < level.contact_length < 875e-6

@@ -53,7 +53,6 @@ SCENES = {
         changed(steel(10e-3, 2e9, 0.2), body={"thickness": 2e-3, "width": 4e-3}),
         STRAINED | COUPLED,
     ),
-    "waves on steel, friction": (steel(10e-3, 1.5e9, 0.2) | WAVY, STRAINED | COUPLED),
     "steel on steel": (steel(5e-3, 3e9, **KNOWN_STEEL), STRAINED | DISC),
     "waves, steel on steel, friction": (
         steel(5e-3, 1.5e9, 0.1, **KNOWN_STEEL) | WAVY,

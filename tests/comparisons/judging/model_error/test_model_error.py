@@ -44,13 +44,13 @@ THICK_PLATE = {
     "roller": {"radius": 25e-3, "youngs_modulus": 200e9, "poissons_ratio": 0.3},
     "body": {"youngs_modulus": 200e9, "poissons_ratio": 0.3, "thickness": 40e-3},
     "load": {"per_length": 1e4},
-    "stress": {"depth": 1.5},
+    "stress": {"depth": 1.5, "points": [120, 40]},
 }
 CASES = [
     (case, nu)
     for case in json.loads(TABLE.read_text())["cases"]
     for nu in ([0.3] if case["nu"] == "any" else [float(case["nu"])])
-    if nu == 0.3 or (nu, case["a_over_t"]) == (0.4999, "0.25")
+    if (nu, case["a_over_t"] == "0.25") in [(0.3, False), (0.4999, True)]
 ]
 
 
