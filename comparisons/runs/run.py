@@ -43,7 +43,7 @@ from comparisons.common.tasks import (
 )
 from comparisons.figures.figure import Findings
 from comparisons.judging.model_error.study import selection_lines
-from comparisons.judging.study import Run, Solved, studied, unsolved
+from comparisons.judging.study import Run, Solved, Study, studied, unsolved
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
@@ -168,9 +168,11 @@ def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> lis
     return [*expected(scene_now, tasks), *effects, *skipped]
 
 
-def _begin(scene: Solved, tasks: Tasks, solved: Solved) -> None:
+def _begin(
+    scene: Solved, tasks: Tasks, solved: Solved, studies: tuple[Study, ...] = STUDIES
+) -> None:
     """Let the studies that the scene asks for begin with what is solved."""
-    for study in STUDIES:
+    for study in studies:
         if study.applies(scene) and study.needs(scene) is None:
             study.begin(solved, tasks)
 
@@ -199,10 +201,15 @@ def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels 
     return problem_of_approach(scene, here.callback, surface, levels)
 
 
-def solve(scene: Solved, out: Path | None, callback: ProgressCallback = no_progress) -> Run:
+def solve(
+    scene: Solved,
+    out: Path | None,
+    callback: ProgressCallback = no_progress,
+    studies: tuple[Study, ...] = STUDIES,
+) -> Run:
     """Solve a scene by its plan and answer its studies, as `solve_scene`; nothing is solved yet."""
     with _tasks_of(scene.problem.scene, scene.plan.models) as tasks:
-        return _solve(scene, out, callback, tasks)
+        return _solve(scene, out, callback, tasks, studies)
 
 
 def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
@@ -211,10 +218,17 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
     return tasks_here(memory=scene.budget.memory, here=here, there=there)
 
 
-def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
+def _solve(
+    scene: Solved,
+    out: Path | None,
+    callback: ProgressCallback,
+    tasks: Tasks,
+    studies: tuple[Study, ...] = STUDIES,
+) -> Run:
     problem, plan = scene.problem, scene.plan
     tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
-    begin, kept = partial(_begin, scene, tasks), None if out is None else unfinished(out, "run")
+    begin = partial(_begin, scene, tasks, studies=studies)
+    kept = None if out is None else unfinished(out, "run")
 
     def say() -> None:
         tasks.callback = told(kept, expected(scene, tasks), tasks, callback)
@@ -222,11 +236,11 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     try:
         begin(scene)
         solved = refined(scene, tasks, begin, say)
-        findings = studied(STUDIES, solved, {}, tasks)
+        findings = studied(studies, solved, {}, tasks)
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise
-    return Run(solved, findings, record_of(solved, findings), out, STUDIES)
+    return Run(solved, findings, record_of(solved, findings), out, studies)
 
 
 def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:

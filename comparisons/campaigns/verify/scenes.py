@@ -33,7 +33,8 @@ from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS, WHOLE
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging import contact
+from comparisons.judging import comparison, contact
+from comparisons.judging.model_error import study as model_error
 from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.study import MODEL_ERROR, unsolved
 from comparisons.models.model import scene_model
@@ -62,6 +63,7 @@ NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives th
 # The clock must not decide on a fourth.
 LEVELS = Levels(3, effects=2)
 LINEAR = {"effects": False}  # as what is exact; in [budget]
+JUDGED = comparison.STUDY, model_error.STUDY
 COMPARED = ("peak_pressure", "contact_length", "tau1_max", "tau1_max_depth", "txz_max_abs")
 
 
@@ -231,7 +233,7 @@ def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     problem = problem_of(asked, surface_of(asked, scene.trace), levels=LEVELS)
     (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
-    outcome = solve(posed, None) if scene.half_plane else None
+    outcome = solve(posed, None, studies=JUDGED) if scene.half_plane else None
     solved = outcome.solved if outcome else refined(posed, Tasks())
     figures = Figures(contact.solve(solved, {}, None).figures)
     runs = solved.runs.values()

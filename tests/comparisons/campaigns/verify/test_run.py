@@ -12,6 +12,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from analytic.exact.manufactured import ManufacturedContact
+from analytic.stress_state import Extremum
 from comparisons import cli
 from comparisons.campaigns.cases import Row, Trial, holds, junit_of
 from comparisons.campaigns.verify import run
@@ -70,7 +72,9 @@ def half_plane_cases(count: int | None = None) -> list[Trial]:
 
 
 class TestCases:
-    def test_there_are_enough_of_each_kind_with_names_of_their_own(self):
+    def test_there_are_enough_of_each_kind_with_names_of_their_own(self, monkeypatch):
+        anything = dict.fromkeys(("tau1", "txz"), Extremum(0.0, 0.0, 0.0))  # figures are counted
+        monkeypatch.setattr(ManufacturedContact, "extremes", lambda *_: anything)
         cases = run.everything()
         exact = [case for case in cases if case.group not in ("manufactured", "independent solver")]
         assert len({(case.model, case.group, case.name) for case in cases}) == len(cases)
