@@ -155,6 +155,7 @@ def made(tmp_path_factory):
     )
     asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out")]
     asked += ["--over", "profile.amplitude=20 nm,50 nm,5e-8", "--over", "roller.radius=8e-3,1e-2"]
+    asked += ["--workers", "1"]
     return folder / "out", asked, main(asked)
 
 
@@ -238,7 +239,7 @@ def test_points_that_fail_are_told_with_the_status_of_solvers(
 
     monkeypatch.setattr("comparisons.grid.sweep.solved", solved)
     monkeypatch.setattr(Sweep, "pictures", lambda _: {})
-    asked = [*made[1][:3], str(tmp_path / "out"), *made[1][4:], "--workers", "1"]
+    asked = [*made[1][:3], str(tmp_path / "out"), *made[1][4:]]
     assert main(asked) == status
     assert "2 failed\nfailed, 2: no luck" in capsys.readouterr().out
 

@@ -83,6 +83,8 @@ comparisons.scenes.studies.__path__.append("sections")
 import comparisons.studies
 import mean_pressure
 comparisons.studies.STUDIES += (mean_pressure.STUDY,)
+from comparisons.drawing import style
+style.svg = lambda drawn: ""
 from comparisons.cli import main
 sys.exit(main(sys.argv[1:]))
 """

@@ -3,7 +3,6 @@
 import shutil
 import subprocess
 import sys
-from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -181,7 +180,6 @@ def solved_by_calculix(mesh, hertz, tmp_path_factory):
         "held": "\n".join(str(node + 1) for node in held),
     }
 
-    @cache
     def solved(flag):
         folder = tmp_path_factory.mktemp("ccx")
         steps = (STEP.format(flag=flag, loads="\n".join(lines)) for lines in (halves, loads))
@@ -202,10 +200,10 @@ def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
     assert half.load == pytest.approx(0.5 * hertz.load_per_length, rel=0.03)
 
 
-def test_a_truncated_result_of_calculix(solved_by_calculix, tmp_path):
-    content = solved_by_calculix(",OUTPUT=2D").read_bytes()
+def test_a_truncated_result_of_calculix(tmp_path):
+    pytest.importorskip("pyvista_frd", reason="no pyvista-frd-reader: pip install")
     path = tmp_path / "cut.frd"
-    path.write_bytes(content[: len(content) // 2])
+    path.write_text("    1C\n")
     with pytest.raises(InputError, match=r"cut\.frd: ends before its last line"):
         read({"file": str(path)})
 
@@ -246,7 +244,6 @@ ROWS = [f"{x:g},{(1 - x**2) * 1e9:g}" for x in np.linspace(-1.0, 1.0, 11)]
             'is "mm", a length; allowed is a pressure',
         ),
         ("a.vtu", "<VTKFile", "at line 1.*; allowed is a whole result file|holds no mesh"),
-        ("a.frd", "    1C\n", "ends before its last line"),
         ("a.med", "not HDF", "cannot be read|not installed"),
         ("a.what", "?", "does not support"),
     ],
