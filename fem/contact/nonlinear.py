@@ -36,7 +36,7 @@ RESIDUAL = 1e-9
 MOST_ITERATIONS = 30
 # Without a smaller residual, which a hardness that has moved raises at first: those that converge
 # take four at most, others go on to the end.
-MOST_IDLE = 10
+MOST_IDLE = 6
 # A step is bisected if it multiplies the residual by more or inverts an element.
 GROWTH = 10.0
 # A hardness that has moved changes many hats' states at once: up to this residual, all may.
