@@ -122,6 +122,7 @@ def test_what_fails_costs_its_row_and_what_there_is_no_time_for_is_not_begun(mon
     assert rows_of(outcome)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_command_is_a_run_that_prints_a_table_of_80_columns(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(
         cost, "methods_of", lambda problem: dict(list(methods_of(problem).items())[:1])

@@ -11,8 +11,8 @@ body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 profile = {kind = "sinusoid", wavelength = "150 um", amplitude = "0.3 um"}
 load = {hertz_peak_pressure = "2 GPa", friction = 0.2}
 budget = {time = 1.0}
-resolution = {pitch = "10 um", levels = 2}
-stress = {points = [40, 20]}
+resolution = {pitch = "20 um", levels = 2}
+stress = {points = [20, 10]}
 finite_element = {block = 40}
 """
 RUN = """

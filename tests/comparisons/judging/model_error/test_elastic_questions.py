@@ -81,7 +81,7 @@ def test_one_law_of_all_bodies_replaces_their_own():
 
 
 def test_a_solid_that_typically_flows_is_not_judged_without_its_yield_stress():
-    run = run_of(GEAR)
+    run = run_of(GEAR, levels=Levels(3))
     said, within = headline(run), within_of(run)
     assert said.kind == "inconclusive" and within.size is None
     assert "it flows at such stresses: alloy steel typically flows at" in within.sentence
@@ -93,7 +93,7 @@ def test_a_solid_that_typically_flows_is_not_judged_without_its_yield_stress():
     assert run.data("model_error").selection.added == frozenset()
     named, linear = (asked_in_python(line, run.problem.scene) for line in said.paste)
     assert named.body.yield_stress == pytest.approx(1.08e9) and linear.linear
-    linear = run_of(linear)
+    linear = run_of(linear, levels=Levels(3))
     assert within_of(linear).size < 0.01 and headline(linear).kind == "holds"
     assert "it flows at such stresses" in dict(lines(linear))["flow"]
 
@@ -122,7 +122,8 @@ def test_flow_that_does_nothing_leaves_an_elastic_whole():
 
 
 def test_elastic_bodies_are_asked_for_by_a_switch():
-    run = run_of(changed(GEAR, finite_element={"plastic": False}, budget={"effects": False}))
+    elastic = changed(GEAR, finite_element={"plastic": False}, budget={"effects": False})
+    run = run_of(elastic, levels=Levels(2))
     assert "For elastic bodies, " in within_of(run).sentence
     assert within_of(run).size is not None
     assert "it flows at such stresses" in dict(lines(run))["flow"]
