@@ -51,11 +51,6 @@ def made(scene, tmp_path_factory) -> tuple[Path, list[str]]:
         return out, tasks.result("loaded")
 
 
-@pytest.fixture(scope="module")
-def undisturbed(made) -> Path:
-    return made[0]
-
-
 def saved(out: Path) -> dict[str, int]:
     """The finished points, and when each was written."""
     return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
@@ -63,7 +58,7 @@ def saved(out: Path) -> dict[str, int]:
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc to look in")
 def test_killed_and_interrupted_it_ends_with_the_same_map(
-    scene, undisturbed, started, session, until, tmp_path
+    scene, made, started, session, until, tmp_path
 ):
     """No worker outlives its map, and no finished point is computed again."""
     out, before = tmp_path / "out", {}
@@ -83,12 +78,12 @@ def test_killed_and_interrupted_it_ends_with_the_same_map(
     )
     assert main(["map", str(scene), *ASKED, "--workers", "1", "--out", str(out)]) == 0
     assert before.items() <= saved(out).items() and len(saved(out)) == 4
-    assert (out / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
-    assert (out / PICTURE).read_bytes() == (undisturbed / PICTURE).read_bytes()
+    assert (out / MAP).read_bytes() == (made[0] / MAP).read_bytes()
+    assert (out / PICTURE).read_bytes() == (made[0] / PICTURE).read_bytes()
     assert sorted(p.name for p in out.iterdir()) == [MAP, PICTURE, FOLDER]
 
 
-def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
+def test_a_dask_cluster_makes_the_same_map(scene, made, tmp_path):
     distributed = pytest.importorskip(
         "distributed", reason="Dask is not installed: pip install distributed"
     )
@@ -96,7 +91,7 @@ def test_a_dask_cluster_makes_the_same_map(scene, undisturbed, tmp_path):
         where = cluster.scheduler_address
         out = tmp_path / "out"
         assert main(["map", str(scene), *ASKED, "--workers", where, "--out", str(out)]) == 0
-    assert (out / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
+    assert (out / MAP).read_bytes() == (made[0] / MAP).read_bytes()
 
 
 def test_a_worker_loads_what_solves_and_nothing_that_shows(made):

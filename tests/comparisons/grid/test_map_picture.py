@@ -5,13 +5,7 @@ import pytest
 
 from comparisons.drawing.style import drawing, svgs
 from comparisons.grid.groups import axis_of
-from comparisons.grid.map_error import (
-    BELOW,
-    INCONCLUSIVE,
-    SIGNIFICANT,
-    points_within,
-    significance,
-)
+from comparisons.grid.map_error import BELOW, INCONCLUSIVE, SIGNIFICANT, points_within, significance
 from comparisons.grid.map_picture import map_figure
 from comparisons.grid.points import FAILED, SOLVED
 

@@ -153,9 +153,8 @@ def made(tmp_path_factory):
         'poissons_ratio = 0.3\n[profile]\nkind = "sinusoid"\nwavelength = "40 um"\n'
         'amplitude = "50 nm"\n[load]\nhertz_peak_pressure = "1 GPa"\n[resolution]\nlevels = 2\n'
     )
-    asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out")]
+    asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out"), "--workers", "1"]
     asked += ["--over", "profile.amplitude=20 nm,50 nm,5e-8", "--over", "roller.radius=8e-3,1e-2"]
-    asked += ["--workers", "1"]
     return folder / "out", asked, main(asked)
 
 

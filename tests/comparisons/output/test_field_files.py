@@ -15,13 +15,7 @@ from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
 from comparisons.models.readings import stresses_at
 from comparisons.output.arrays import levels_by_folder
-from comparisons.output.field_files import (
-    CELL_TYPES,
-    COMPONENTS,
-    STRESSES,
-    field_of,
-    write_field,
-)
+from comparisons.output.field_files import CELL_TYPES, COMPONENTS, STRESSES, field_of, write_field
 from comparisons.runs.write import write_contact, write_mesh
 
 

@@ -22,14 +22,12 @@ def fails(*_: object, **__: object) -> None:
 
 
 @pytest.fixture(autouse=True)
-def as_it_runs(tmp_path, monkeypatch):
+def as_it_runs(tmp_path, monkeypatch, unpainted):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(page, "attempted", blocks.attempted)
 
 
-def test_it_is_named_in_its_place_and_all_else_is_there(
-    tmp_path, monkeypatch, capsys, page_of, unpainted
-):
+def test_it_is_named_in_its_place_and_all_else_is_there(tmp_path, monkeypatch, capsys, page_of):
     assert main(RUN) == 0
     before = FIGURES.search((tmp_path / "out/result.json").read_text())[0]
     images = len(page_of((tmp_path / "out/report.html").read_text()).images)

@@ -6,11 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import (
-    PROJECT,
-    refound,
-    with_levels,
-)
+from scenes import PROJECT, refound, with_levels
 
 from comparisons.cli import app
 from comparisons.figures.quantity import COMPARED, MODELS, label
@@ -48,10 +44,7 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: 
         one, other, difference, uncertainty, tolerance, verdict = shown[
             label(row.quantity), row.friction
         ]
-        for text, value, digits in (
-            (uncertainty, row.numerical, 2),
-            (tolerance, row.tolerance, 6),
-        ):
+        for text, value, digits in ((uncertainty, row.numerical, 2), (tolerance, row.tolerance, 6)):
             if value is None:
                 assert text == ""
             elif abs(value) < 1e-6 and text.startswith("<"):
@@ -114,18 +107,15 @@ def capped(outcome: Run, one: float, other: float) -> Run:
     return refound(outcome, "contact", figures=figures)
 
 
-def test_peaks_that_the_hardness_limits_are_no_evidence(
-    wavy_outcome: Run, smooth_outcome: Run, monkeypatch, no_pictures
-):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
-
+def test_peaks_that_the_hardness_limits_are_no_evidence(wavy_outcome, smooth_outcome, drawn_only):
     def notes(outcome: Run) -> list[str]:
         rows = comparison_table(outcome, brief=True).rows
         return [note for name, *_ in rows for note in name.split("\n")[1:]]
 
     held = capped(wavy_outcome, 1.0, 1.0 - 1e-12)
     assert notes(held) == ["capped in both"]
-    assert render(held).count('<span class="relative">capped in both') == 1
+    with drawn_only():
+        assert render(held).count('<span class="relative">capped in both') == 1
     assert notes(capped(wavy_outcome, 1.0, 0.999)) == []
     assert notes(capped(wavy_outcome, 0.999, 1.0)) == []
     assert notes(smooth_outcome) == []  # without a hardness

@@ -27,9 +27,7 @@ def outcome(wavy_outcome: Run) -> Run:
     field = replace(stress.field, txz=1.25 * stress.field.txz)
     moved = HIGHER * np.roll(level.solution.pressure, MOVED)
     whole = replace(
-        level,
-        solution=replace(level.solution, pressure=moved),
-        stress=replace(stress, field=field),
+        level, solution=replace(level.solution, pressure=moved), stress=replace(stress, field=field)
     )
     wholes = wavy_outcome.solved.cases[0].runs["finite_element"].finest, whole
     budget = replace(wavy_outcome.data("model_error"), wholes=wholes)

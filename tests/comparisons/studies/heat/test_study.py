@@ -3,7 +3,6 @@ Thermal stresses of coated bodies by finite elements."""
 
 from dataclasses import replace
 from pathlib import Path
-from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -53,9 +52,9 @@ def value(outcome, quantity, source="half_plane"):
 
 
 @pytest.fixture(scope="module")
-def rough(tmp_path_factory, no_pictures):
+def rough(tmp_path_factory, drawn_only):
     out = tmp_path_factory.mktemp("heat") / "out"
-    with patch("comparisons.output.page.page.draw", no_pictures):
+    with drawn_only():
         return run(resolved(TRACE), out, MODELS, known=Known(levels=Levels(3)))
 
 

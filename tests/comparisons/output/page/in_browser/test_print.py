@@ -4,7 +4,6 @@ PDF beside the report where a browser prints one, else a sentence."""
 import os
 import re
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 from scenes import STEADY
@@ -43,11 +42,11 @@ LEAST_LETTERS = 6.0  # points
 
 
 @pytest.fixture(scope="module")
-def levels_file(finish, no_pictures, tmp_path_factory) -> Path:
+def levels_file(finish, drawn_only, tmp_path_factory) -> Path:
     """The words of the report of a run with as many levels as there are columns for."""
     page = tmp_path_factory.mktemp("levels") / "report.html"
     outcome = finish({**STEADY, "resolution": {"levels": 6}})
-    with patch("comparisons.output.page.page.draw", no_pictures):
+    with drawn_only():
         page.write_text(render(outcome), encoding="utf-8")
     return page
 

@@ -4,9 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import (
-    with_levels,
-)
+from scenes import with_levels
 from scipy.interpolate import RegularGridInterpolator
 
 from comparisons.drawing.curves import COINCIDE
