@@ -23,6 +23,7 @@ from comparisons.scenes.fields import file_fields
 from comparisons.scenes.files import value_of
 from comparisons.scenes.scene import Origin, Scene, sections_of
 from comparisons.scenes.schema.messages import read_field
+from comparisons.scenes.surface import surface_of
 
 # Options of `crosscheck init` by the fields that they are, both bodies' for solids and moduli;
 # others are fields of [profile] by the same name.
@@ -172,13 +173,14 @@ def _fitting(
 ) -> tuple[str, Problem]:
     """The scene with the roller that is asked for, or the largest whose contact stays on the
     trace."""
-    refusal, asked = None, values["roller"].get("radius")
+    refusal, surface, asked = None, None, values["roller"].get("radius")
     title = one_line(f"{profile.stem} under a smooth roller")
     for radius in RADII if asked is None else (asked,):
         text = scene_text(title, values | {"roller": {"radius": radius} | values["roller"]}, notes)
         try:
             scene = Scene.of(tomllib.loads(text), Origin(out.stem, out.parent, str(out)))
-            return text, problem_of(scene)
+            surface = surface or surface_of(scene)  # whatever the roller
+            return text, problem_of(scene, surface)
         except ContactError as error:
             refusal = SceneError(f"{out}: {error}")
         except SceneError as error:
