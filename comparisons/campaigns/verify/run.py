@@ -37,6 +37,7 @@ from comparisons.campaigns.verify.coverage import (
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_cases
 from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
+from comparisons.common.errors import check_finite_elements
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import label
@@ -133,6 +134,8 @@ def verify(
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""
     check_places("verify", out, junit)  # before the cases, which take seconds
+    if cases is None:
+        check_finite_elements()
 
     def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
         return verification((*rows, *order_rows(rows)), seconds, fewest)
