@@ -26,7 +26,7 @@ def test_every_scene_has_its_card_and_pictures_are_small():
     assert sum(path.stat().st_size for path in PICTURES.iterdir()) < 0.5e6
 
 
-def test_a_run_makes_the_card_that_is_shown(tmp_path, monkeypatch):
+def test_a_run_makes_the_card_that_is_shown(tmp_path, monkeypatch, undrawn):
     """All but the numbers of the sentence, whose last digits are the machine's."""
     monkeypatch.setattr(gallery, "SCENES", [s for s in gallery.SCENES if s.stem == "smooth"])
     gallery.main(["--runs", str(tmp_path / "runs"), "--out", str(tmp_path)])
