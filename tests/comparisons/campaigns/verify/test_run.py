@@ -34,7 +34,6 @@ from comparisons.campaigns.verify.operators import operator_cases, operator_cont
 from comparisons.campaigns.verify.rough import rough_operator_contacts, rough_scenes
 from comparisons.campaigns.verify.run import Verification, verification, verify
 from comparisons.campaigns.verify.scenes import (
-    finite_element_scenes,
     half_plane_scenes,
     layer_scenes,
     scene_cases,
@@ -54,9 +53,8 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
     """A verification of some finite elements, of half-planes for the orders; and its folder."""
     folder = tmp_path_factory.mktemp("verify")
     scenes = (
-        *(scene for scene in half_plane_scenes(rounds=4) if scene.kind == "Hertz"),
+        *(scene for scene in half_plane_scenes(rounds=3) if scene.kind == "Hertz"),
         *(scene for scene in half_plane_scenes(rounds=1) if scene.kind != "Hertz"),
-        finite_element_scenes()[0],
         *(layer_scenes()[k] for k in SOME_LAYERS),
         *rough_scenes(half_planes=3, finite_elements=1, layers=1),
     )
