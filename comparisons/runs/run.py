@@ -43,7 +43,7 @@ from comparisons.common.tasks import (
 )
 from comparisons.figures.figure import Findings
 from comparisons.judging.model_error.study import selection_lines
-from comparisons.judging.study import Run, Solved, Study, studied, unsolved
+from comparisons.judging.study import Run, Solved, studied, unsolved
 from comparisons.models.level import Level
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.posing import problem_of
@@ -168,11 +168,9 @@ def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> lis
     return [*expected(scene_now, tasks), *effects, *skipped]
 
 
-def _begin(
-    scene: Solved, tasks: Tasks, solved: Solved, studies: tuple[Study, ...] = STUDIES
-) -> None:
+def _begin(scene: Solved, tasks: Tasks, solved: Solved) -> None:
     """Let the studies that the scene asks for begin with what is solved."""
-    for study in studies:
+    for study in STUDIES:
         if study.applies(scene) and study.needs(scene) is None:
             study.begin(solved, tasks)
 
@@ -201,34 +199,16 @@ def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels 
     return problem_of_approach(scene, here.callback, surface, levels)
 
 
-def solve(
-    scene: Solved,
-    out: Path | None,
-    callback: ProgressCallback = no_progress,
-    studies: tuple[Study, ...] = STUDIES,
-) -> Run:
-    """Solve a scene by its plan and answer its studies, as `solve_scene`; nothing is solved yet."""
-    with _tasks_of(scene.problem.scene, scene.plan.models) as tasks:
-        return _solve(scene, out, callback, tasks, studies)
-
-
 def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
     there = _for_finite_elements() if "finite_element" in models else ()
     here = [revision, *(partial(import_module, name) for name in ANSWER)]
     return tasks_here(memory=scene.budget.memory, here=here, there=there)
 
 
-def _solve(
-    scene: Solved,
-    out: Path | None,
-    callback: ProgressCallback,
-    tasks: Tasks,
-    studies: tuple[Study, ...] = STUDIES,
-) -> Run:
+def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
     tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
-    begin = partial(_begin, scene, tasks, studies=studies)
-    kept = None if out is None else unfinished(out, "run")
+    begin, kept = partial(_begin, scene, tasks), None if out is None else unfinished(out, "run")
 
     def say() -> None:
         tasks.callback = told(kept, expected(scene, tasks), tasks, callback)
@@ -236,11 +216,11 @@ def _solve(
     try:
         begin(scene)
         solved = refined(scene, tasks, begin, say)
-        findings = studied(studies, solved, {}, tasks)
+        findings = studied(STUDIES, solved, {}, tasks)
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise
-    return Run(solved, findings, record_of(solved, findings), out, studies)
+    return Run(solved, findings, record_of(solved, findings), out, STUDIES)
 
 
 def finish(run: Run, callback: ProgressCallback = no_progress) -> bool:

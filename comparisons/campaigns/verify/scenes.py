@@ -36,13 +36,12 @@ from comparisons.figures.uncertainty import Uncertainty
 from comparisons.judging import comparison, contact
 from comparisons.judging.model_error import study as model_error
 from comparisons.judging.rule import relative_l2, values_of
-from comparisons.judging.study import MODEL_ERROR, unsolved
+from comparisons.judging.study import MODEL_ERROR, studied, unsolved
 from comparisons.models.model import scene_model
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.runs.refinement import refined
-from comparisons.runs.run import solve
 from comparisons.scenes.scene import Origin, Scene
 from comparisons.scenes.surface import KnownTrace, surface_of
 
@@ -233,18 +232,18 @@ def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     problem = problem_of(asked, surface_of(asked, scene.trace), levels=LEVELS)
     (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
-    outcome = solve(posed, None, studies=JUDGED) if scene.half_plane else None
-    solved = outcome.solved if outcome else refined(posed, Tasks())
+    solved = refined(posed, tasks := Tasks())
     figures = Figures(contact.solve(solved, {}, None).figures)
     runs = solved.runs.values()
     converged = all(level.solution.converged for run in runs for level in run.levels)
     common = scene.source, scene.kind, converged
     for quantity, exact in scene.exact.items():
         yield from compared(figures.one(source=model, quantity=quantity), exact, *common)
-    if outcome:
+    if scene.half_plane:
+        errors = Figures(studied(JUDGED, solved, {}, tasks)[MODEL_ERROR].figures)
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
-            error = outcome.figures.one(against=WHOLE, quantity=quantity, friction=friction)
+            error = errors.one(against=WHOLE, quantity=quantity, friction=friction)
             yield from compared(_by_itself(error), half_plane[quantity] / exact - 1.0, *common)
     if scene.pressure is not None:
         curves = ((level.grid.x, level.solution.pressure) for level in solved.runs[model].levels)

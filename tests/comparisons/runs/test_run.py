@@ -32,7 +32,7 @@ from comparisons.common.errors import ExitStatus, InputError, SceneError
 from comparisons.common.progress import Early, Lasting
 from comparisons.common.provenance import versions
 from comparisons.figures.quantity import MODELS
-from comparisons.judging.study import MODEL_ERROR, unsolved
+from comparisons.judging.study import MODEL_ERROR
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
@@ -40,7 +40,7 @@ from comparisons.models.problem import Problem
 from comparisons.output.page.tables.verification import commands
 from comparisons.output.result import FILE, read_result, result_of
 from comparisons.runs.rerun import rerun
-from comparisons.runs.run import level_cache, planned, run, solve
+from comparisons.runs.run import level_cache, planned, run
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 
@@ -153,10 +153,10 @@ class TestSmooth:
         assert "<html" in (out / "report.html").read_text()
         assert not (out / "half_plane" / "mesh.msh").exists()
 
-    def test_leaving_steps_out_changes_no_figure(self, smooth, tmp_path):
+    def test_leaving_steps_out_changes_no_figure(self, smooth):
         """The roller on a factorisation of its own, though the body's would do."""
         with patch.object(Problem, "shares_factor", False):
-            whole = solve(unsolved(smooth.problem, smooth.plan), tmp_path / "out")
+            whole = run(smooth.problem.scene, None, MODELS)
         assert whole.runs["finite_element"].finest.unknowns == 2 * (
             smooth.runs["finite_element"].finest.unknowns
         )
