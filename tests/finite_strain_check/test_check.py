@@ -127,29 +127,24 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=4e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "surface"), [("aluminium alloy", "smooth"), ("fused silica", "waves")]
-)
-def test_measured_constants_are_those_of_the_projects_own_elements(name, surface):
+@pytest.mark.parametrize("name", ["aluminium alloy", "fused silica"])
+def test_measured_constants_are_those_of_the_projects_own_elements(name):
     """Under a rigid roller, where the law changes the peak by 1 to 3 %."""
     solid = solids()[name]
     load = {"hertz_peak_pressure": 0.018 * solid.material.youngs_modulus}
     wave = {"kind": "sinusoid", "wavelength": 40e-6, "amplitude": 0.05e-6, "length": 1e-3}
-    profile = {"profile": wave} if surface == "waves" else {}
-    scene, level, stress = by_the_project(48, body={"material": name}, load=load, **profile)
+    scene, level, stress = by_the_project(48, body={"material": name}, load=load, profile=wave)
     ell, m, _ = solid.law.murnaghan
     law = ell / solid.material.shear_modulus, m / solid.material.shear_modulus
     radius, load = 2000.0, scene.hertz.load_per_length / 1e3
     x = np.linspace(-500.0, 500.0, 4001)
-    height = 0.05 * np.cos(2.0 * np.pi * x / 40.0) if surface == "waves" else 0.0 * x
+    height = 0.05 * np.cos(2.0 * np.pi * x / 40.0)
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
     result = cases.solved(task, (4.0, 2.0))[-1]
-    peak = level.solution.pressure.max()
-    assert peak == pytest.approx(1e9 * result.peak, rel=2e-3)
-    assert level.contact_length == pytest.approx(
-        1e-6 * result.deformed_length, rel=1.5e-2
-    )  # an element at each end
+    length = 1e-6 * result.deformed_length
+    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=2e-3)
+    assert level.contact_length == pytest.approx(length, rel=1.5e-2)  # an element at each end
     assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=6e-3)
 
 
