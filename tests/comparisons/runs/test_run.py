@@ -24,6 +24,7 @@ from scenes import (
     problem,
     python,
     resolved,
+    run_of,
     without_cost,
 )
 
@@ -196,8 +197,8 @@ def test_one_model_replaces_a_comparison_with_a_word(smooth, tmp_path, capsys):
     assert "replaces" not in capsys.readouterr().err
 
 
-def test_friction_changes_stresses_and_not_the_contact(tmp_path, smooth):
-    outcome = run(resolved(changed(QUICK, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS)
+def test_friction_changes_stresses_and_not_the_contact(smooth):
+    outcome = run_of(QUICK, load={"friction": [0.0, 0.1]})
     for model in MODELS:
         still, sliding = (values(outcome, model, friction) for friction in (0.0, 0.1))
         for name in ("peak_pressure", "contact_length", "peak_position"):
@@ -554,9 +555,8 @@ def test_a_scene_that_cannot_be_solved_is_refused_and_writes_nothing(tmp_path, s
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_level_that_would_not_fit_is_not_begun(tmp_path):
+def test_a_level_that_would_not_fit_is_not_begun():
     """Room for the three planned levels and none for a fourth."""
-    tables = changed(QUICK, budget={"memory": 2.9e8}, tolerance={"peak_pressure": 1e-6})
-    outcome = run(resolved(tables), tmp_path / "out", MODELS)
+    outcome = run_of(QUICK, budget={"memory": 2.9e8}, tolerance={"peak_pressure": 1e-6})
     assert "budget.memory" in outcome.solved.refinement
     assert len(outcome.runs["finite_element"].levels) == 3
