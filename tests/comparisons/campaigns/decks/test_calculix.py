@@ -19,15 +19,14 @@ import comparisons as crosscheck
 from comparisons.campaigns.decks.write import make_deck
 from comparisons.figures.figure import Figure, Figures
 from comparisons.figures.quantity import MODELS
-from comparisons.studies.answers.meshes import _write_faces
+from comparisons.studies.answers import meshes
 
 pytestmark = pytest.mark.skipif(
     shutil.which("ccx") is None, reason="decks in CalculiX: apt-get install calculix-ccx"
 )
 SVK = {"law": "st-venant-kirchhoff"}  # CalculiX and the finite elements both have it
-LONG = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples": 512}
-LONG |= {"length": "400 um", "seed": 3}
-LONG |= {"shortest_wavelength": "60 um", "longest_wavelength": "200 um"}
+LONG = {"kind": "self-affine", "hurst": 0.8, "rms_height": "0.15 um", "samples": 512, "seed": 3}
+LONG |= {"length": "400 um", "shortest_wavelength": "60 um", "longest_wavelength": "200 um"}
 FINITE = {"deformation": "finite"}
 # Of the mesh: few elements far from the contact, and a near boundary, which both codes have.
 SMALL = {"growth": 0.5, "block": 20.0}
@@ -115,14 +114,11 @@ def answered(tmp_path_factory) -> Callable[..., tuple[dict, dict]]:
     return solved_twice
 
 
-def in_this_process(command: list, **others: object) -> None:
-    """Read a result without another process, whose start takes as long as CalculiX."""
-    _write_faces(*map(Path, command[3:]), None)
-
-
 def judged(tables: dict, answers: dict) -> dict[str, Figure]:
-    """Figures of CalculiX as `run --answer` judges it beside the scene's finite elements."""
-    with patch("comparisons.studies.answers.meshes.said_by", in_this_process):
+    """Figures of CalculiX as `run --answer` judges it beside the scene's finite elements; they
+    are read in this process, as the start of another takes as long as CalculiX."""
+    read = meshes._write_faces
+    with patch.object(meshes, "said_by", lambda said, **_: read(*map(Path, said[3:]), None)):
         return differences(crosscheck.run(tables | {"answers": answers}, "finite-element").figures)
 
 
@@ -164,12 +160,9 @@ def test_an_answer_goes_from_the_deck_to_the_verdict(answered):
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
     """Like bodies: shear is friction times pressure, towards +x on the rough body."""
-    sliding = crosscheck.Scene.read("smooth-sliding").written
-    tables = {name: table for name, table in sliding.items() if name != "stress"}
-    tables["finite_element"] = SMALL
+    tables = crosscheck.Scene.read("smooth-sliding").written | {"finite_element": SMALL}
     solved(tmp_path, coarse(tables, 3.0), 1)
-    shear = contact_values(tmp_path / "job.frd", 61)
-    pressure = contact_values(tmp_path / "job.frd", 49)
+    shear, pressure = (contact_values(tmp_path / "job.frd", at) for at in (SHEAR, PRESSURE))
     hertz = scenes.problem(tables).hertz.peak_pressure
     assert max(pressure.values()) == pytest.approx(1e-6 * hertz, rel=2e-3)
     assert [abs(shear[n]) for n in pressure] == pytest.approx(
