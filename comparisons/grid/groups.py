@@ -27,7 +27,7 @@ from comparisons.models.problem import Problem
 from comparisons.scenes.fields import plain
 from comparisons.scenes.profile import ProfileSection
 from comparisons.scenes.scene import Origin, Scene
-from comparisons.scenes.surface import rms_slope_of
+from comparisons.scenes.surface import surface_of
 
 # Fields of made profiles that are lengths along x, and the one that heights are proportional to.
 WAVES = {
@@ -208,7 +208,7 @@ def _set_wavelength(scene: Scene, value: float) -> Changes:
 
 def _set_slope(scene: Scene, value: float) -> Changes:
     profile = _made_profile(scene, "rms_slope")
-    factor = value / rms_slope_of(scene)
+    factor = value / surface_of(scene, standard=False).info.roughness.rms_slope
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 

@@ -139,18 +139,31 @@ class SceneSurface:
         }
 
 
-def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurface:
+def surface_of(
+    scene: SceneBase, known: KnownTrace | None = None, standard: bool = True
+) -> SceneSurface:
     """The surface that a scene asks for, as measured: not run in yet.
 
-    known  trace to take in place of the profile's file
+    known     trace to take in place of the profile's file
+    standard  give the standard's figures, too, which take the most of the time
     Raises SceneError where the profile cannot be read or made, or the roller leaves the trace."""
     if scene.profile is None:
         return SceneSurface(None, None, scene.load.position or 0.0)
-    trace, pressed, length, account = _pressed(scene, known)
+    table, length = plain(scene.profile), None
+    if scene.profile.variety == "sinusoid" and scene.profile.length is None:
+        one_wave = scene.profile.wavelength
+        length = table["length"] = one_wave if scene.periodic else _sinusoid_length(scene)
+    if scene.profile.file is not None:
+        trace, origin = _measured(table, scene, known)
+    else:
+        trace, origin = _made(table, scene.source, known)
+    pressed, filtering = _filtered(trace, table, scene.source, standard)
+    if scene.periodic:
+        pressed, filtering["seam"] = _closed(pressed, scene.source)
     position = _position(scene, trace, pressed)
     info = ProfileInfo(
-        **account,
-        **_standard(trace, account["cutoff"], account["short_cutoff"]),
+        **origin,
+        **filtering,
         samples=len(trace.x),
         length=trace.length,
         spacing=trace.spacing,
@@ -162,36 +175,11 @@ def surface_of(scene: SceneBase, known: KnownTrace | None = None) -> SceneSurfac
     return surface
 
 
-def rms_slope_of(scene: SceneBase) -> float:
-    """That of `surface_of`, without the standard's figures, which take the most of its time."""
-    _, pressed, *_ = _pressed(scene)
-    return roughness(pressed).rms_slope
-
-
 def scene_key(scene: SceneBase, surface: SceneSurface) -> list:
     """Tables and profile of a scene: what of it shapes results."""
     profile = surface.profile
     traced = "" if profile is None else digest(profile.x, profile.height)
     return [surface.completed(scene.tables), traced]
-
-
-def _pressed(
-    scene: SceneBase, known: KnownTrace | None = None
-) -> tuple[Profile, Profile, float | None, dict]:
-    """The trace without its form, the part of it that is pressed, the length [m] that the scene
-    leaves open, and where both come from."""
-    table, length, seam = plain(scene.profile), None, {}
-    if scene.profile.variety == "sinusoid" and scene.profile.length is None:
-        one_wave = scene.profile.wavelength
-        length = table["length"] = one_wave if scene.periodic else _sinusoid_length(scene)
-    if scene.profile.file is not None:
-        trace, origin = _measured(table, scene, known)
-    else:
-        trace, origin = _made(table, scene.source, known)
-    pressed, filtering = _filtered(trace, table, scene.source)
-    if scene.periodic:
-        pressed, seam["seam"] = _closed(pressed, scene.source)
-    return trace, pressed, length, origin | filtering | seam
 
 
 def _sinusoid_length(scene: SceneBase) -> float:
@@ -282,8 +270,8 @@ def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profil
     return trace, {"source": table["kind"], "form": RemovedForm("none"), "trace": trace}
 
 
-def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
-    """Pressed part of the trace, and the filter for the account."""
+def _filtered(trace: Profile, table: Mapping, source: str, standard: bool) -> tuple[Profile, dict]:
+    """Pressed part of the trace, and the filter and the standard's figures for the account."""
     cutoff, short = table.get("cutoff"), table.get("short_cutoff")
     field = "cutoff"
     try:
@@ -296,17 +284,14 @@ def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dic
         pressed = filtered(trace, cutoff, short)
     except ValueError as error:
         raise SceneError(f"{source}: profile.{field}: {error}") from error
-    return pressed, {"cutoff": cutoff, "short_cutoff": short}
-
-
-def _standard(trace: Profile, cutoff: float | None, short: float | None) -> dict:
-    """The standard's figures for the account, or why there are none."""
+    account = {"cutoff": cutoff, "short_cutoff": short}
     try:
         cutoff = standard_cutoff(trace) if cutoff is None else cutoff
         short = short or standard_short_cutoff(trace, cutoff)
-        return {"standard": standard_roughness(trace, cutoff, short)}
+        account["standard"] = standard_roughness(trace, cutoff, short) if standard else None
     except ValueError as error:
-        return {"standard_why": str(error).partition(";")[0]}
+        account["standard_why"] = str(error).partition(";")[0]
+    return pressed, account
 
 
 def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:

@@ -165,11 +165,6 @@ class ContactProblem:
         return all(body.symmetric and contact.frictionless for body, contact in self.bodies)
 
     @cached_property
-    def capped(self) -> bool:
-        """Whether a hardness bounds the pressure."""
-        return bool(np.isfinite(self.hardness).any())
-
-    @cached_property
     def stiffness(self) -> float:
         """k of the bodies in series, each with the mean diagonal of its tangent at rest."""
         soft = 0.0
@@ -235,7 +230,7 @@ def newton(
     history = [problem.residual(point, load)]
     while history[-1] > RESIDUAL:
         iterations = len(history) - 1
-        idle = 0 if problem.capped else iterations - np.argmin(history)
+        idle = 0 if np.isfinite(problem.hardness).any() else iterations - np.argmin(history)
         if iterations == MOST_ITERATIONS or idle > MOST_IDLE:
             raise FemError(f"residual {history[-1]:.1e} after {iterations} iterations")
         gap = point.gap / problem.weights
@@ -270,7 +265,7 @@ def _moved(
             why = str(error)
             continue
         residual = problem.residual(reached, load)
-        least = CAPPED_RESIDUAL if problem.capped else RESIDUAL
+        least = CAPPED_RESIDUAL if np.isfinite(problem.hardness).any() else RESIDUAL
         if residual <= GROWTH * max(before, least):
             return reached, residual
     raise FemError(f"no step is acceptable: {why}")
