@@ -15,9 +15,11 @@ from comparisons.scenes.scene import Scene
 from comparisons.scenes.surface import surface_of
 from tests.finite_strain_check.figures import ContactFigures, figures
 from tests.finite_strain_check.solve import Task, solutions
+from tests.scenes import PROFILES
 
-HERE = Path(__file__).parent
-VALUES = HERE / "values.json"
+VALUES = Path(__file__).parent / "values.json"
+# Young's modulus [GPa] and Poisson's ratio of the body; one under a rigid roller is of steel.
+BODIES = {"rigid": (210, 0.3), "steel": (210, 0.3), "aluminium": (70, 0.33), "ceramic": (310, 0.27)}
 SIZES = np.array([8.0, 4.0, 2.0, 1.0])  # of elements, over the finest
 FINEST, WIDE = 0.0625, 300.0  # um; from that half-width on elements are four times as large
 REACH = 2.0  # half-widths of the smooth contact within which the coarsest mesh is fine
@@ -32,9 +34,51 @@ QUANTITIES = {
 }
 
 
-def scene_paths() -> dict[str, Path]:
-    """Paths of the scenes by name."""
-    return {path.stem: path for path in sorted(HERE.glob("scenes/*.toml"))}
+def scene(
+    trace: str, body: str, friction: float, position: int, radius: float, load: float
+) -> dict[str, object]:
+    """Tables of a scene on a ground trace at a position [um]: radius [mm], load [N/um]."""
+
+    def elastic(modulus: int, ratio: float) -> dict[str, object]:
+        fields = {"youngs_modulus": f"{modulus} GPa", "poissons_ratio": ratio}
+        return fields | {"law": "neo-hookean"}
+
+    rigid, of_body = body == "rigid", elastic(*BODIES[body])
+    of_roller = {"rigid": True} if rigid else elastic(*BODIES["steel"])
+    roller, on = "rigid roller" if rigid else "roller of 210 GPa", of_body["youngs_modulus"]
+    file = PROFILES / f"ground_{trace.replace('-', '_')}.csv"
+    place = f"{trace.capitalize()} surface at {position} um"
+    return {
+        "title": f"{place}, {roller} on {on}, friction {friction}",
+        "roller": {"radius": f"{radius} mm"} | of_roller,
+        "body": of_body,
+        "profile": {"file": str(file), "x_unit": "um", "z_unit": "um", "form": "none"},
+        "load": {"per_length": f"{load} N/um", "friction": friction, "position": f"{position} um"},
+        "stress": {"depth": 0.5, "half_range": 1.5, "points": [400, 100]},
+        # as the independent elements, though such bodies flow at such stresses
+        "finite_element": {"plastic": False},
+    }
+
+
+SCENES = {
+    "ground-unrun-sliding": scene("unrun", "steel", 0.1, 1118, 7.5706, 3.55)
+    | {
+        "title": "The scene ground-unrun with friction 0.1: unrun ground surface (computed "
+        "stand-in) against a smooth roller",
+        "stress": {"depth": 1.0, "half_range": 1.5, "points": [600, 100]},
+    },
+    "polished-ceramic-sliding": scene("polished", "ceramic", 0.1, 1900, 8, 0.15),
+    "polished-rigid": scene("polished", "rigid", 0, 700, 8, 0.1),
+    "polished-rigid-sliding": scene("polished", "rigid", 0.1, 1400, 8, 0.1),
+    "run-in-aluminium": scene("run-in", "aluminium", 0, 1700, 6, 0.1),
+    "run-in-rigid-sliding": scene("run-in", "rigid", 0.1, 500, 6, 0.2),
+    "run-in-steel-sliding": scene("run-in", "steel", 0.1, 1100, 6, 0.15),
+    "unrun-aluminium-sliding": scene("unrun", "aluminium", 0.1, 900, 5, 0.06),
+    "unrun-rigid": scene("unrun", "rigid", 0, 1300, 5, 0.1),
+    "unrun-rigid-sliding": scene("unrun", "rigid", 0.1, 1330, 5, 0.2),
+    "unrun-steel": scene("unrun", "steel", 0, 600, 4, 0.12),
+    "unrun-steel-sliding": scene("unrun", "steel", 0.1, 1500, 4, 0.12),
+}
 
 
 def task_of(scene: Scene, friction: float, law: str | tuple[float, float] = "neo-hookean") -> Task:

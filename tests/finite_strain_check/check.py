@@ -76,13 +76,12 @@ def demands(rows: list[Held]) -> list[Demand]:
 def main(arguments: list[str] | None = None) -> int:
     """Print every figure; the exit status."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    paths = cases.scene_paths()
-    parser.add_argument("--scenes", nargs="+", default=list(paths), choices=list(paths))
+    parser.add_argument("--scenes", nargs="+", default=list(cases.SCENES), choices=cases.SCENES)
     parser.add_argument("--solve", action="store_true", help="the independent values, anew")
     options = parser.parse_args(arguments)
     if options.solve:
         for name in options.scenes:
-            scene = scene_of(paths[name])
+            scene = scene_of(cases.SCENES[name])
             task = cases.task_of(scene, scene.load.friction[0])
             levels = cases.levels_of(task)
             meshes = cases.solved(task, levels, print)
@@ -91,7 +90,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     values, rows = cases.read_values(), []
     for name in options.scenes:
-        rows += held(name, crosscheck.run(paths[name]).figures, values[name]["figures"])
+        rows += held(name, crosscheck.run(cases.SCENES[name]).figures, values[name]["figures"])
     cells = []
     for row in rows:
         percents = (row.stated, row.uncertainty, row.computed, row.numerical)

@@ -206,7 +206,7 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
 
 def test_small_strains_meet_the_half_plane_on_a_rough_body():
     """Pressure, shear and orthogonal shear to 0.2 %, the length to both grids."""
-    scene = scene_of(cases.scene_paths()["unrun-rigid"])
+    scene = scene_of(cases.SCENES["unrun-rigid"])
     run = crosscheck.run(scene, models="half-plane")
     known = {f.quantity: f.value for f in run.figures.of(study="contact")}
     task = cases.task_of(scene, 0.0, "linear")
@@ -220,7 +220,7 @@ def test_small_strains_meet_the_half_plane_on_a_rough_body():
 
 def test_every_scene_is_of_elastic_bodies():
     """The independent elements are elastic: a body that may flow has no error for elastic ones."""
-    scenes = [scene_of(path) for path in cases.scene_paths().values()]
+    scenes = [scene_of(tables) for tables in cases.SCENES.values()]
     assert len(scenes) == 12 and all(scene.finite_element.plastic is False for scene in scenes)
 
 
