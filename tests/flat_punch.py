@@ -40,3 +40,13 @@ def punch_pressures(
         plastic.accept(state.displacements[0])
         pressures.append(state.load / weights.sum())
     return pressures
+
+
+def past_the_limit(*problem: object) -> float:
+    """Pressure at the last approach over that at the one before, on the finer of two meshes, which
+    end at LIMIT from above and to first order; `problem` is that of `punch_pressures`."""
+    coarse, fine = (punch_pressures(edges, *problem) for edges in (4, 8))
+    errors = np.array([coarse[-1], fine[-1]]) / LIMIT - 1.0
+    assert 0.0 < errors[1] < 0.035
+    assert 0.7 < np.log2(errors[0] / errors[1]) < 1.3
+    return fine[-1] / fine[-2]

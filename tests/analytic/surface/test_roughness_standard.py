@@ -325,19 +325,9 @@ def test_waves_count_from_a_hundredth_of_the_slopes_variance_on(share, waves):
 
 @pytest.mark.parametrize("cut_off", [5e-6, 20e-6])
 def test_shortest_wavelength_of_a_self_affine_profile_is_its_cut_off(cut_off):
-    lengths = [
-        shortest_wavelength(
-            self_affine(
-                hurst=0.8,
-                samples=4001,
-                length=2e-3,
-                seed=seed,
-                rms_slope=0.05,
-                shortest_wavelength=cut_off,
-            )
-        )
-        for seed in range(6)
-    ]
+    how = {"hurst": 0.8, "samples": 4001, "length": 2e-3, "rms_slope": 0.05}
+    profiles = [self_affine(**how, seed=seed, shortest_wavelength=cut_off) for seed in range(6)]
+    lengths = [shortest_wavelength(profile) for profile in profiles]
     # Slope power ~ k^(1 - 2H): 99 % of it lies below 0.975 of the cut-off wave number.
     assert np.mean(lengths) == pytest.approx(cut_off / 0.975, rel=0.02)
     assert np.all(np.abs(np.array(lengths) / cut_off - 1.0) < 0.1)
