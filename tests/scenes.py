@@ -284,6 +284,11 @@ def with_fields(run: "Run", fields: dict[str, object]) -> "Run":
     return posed(run, problem=replace(run.problem, scene=scene))
 
 
+def compared_verdicts(run: "Run") -> set[str]:
+    """Verdicts on the differences of both models that have a tolerance."""
+    return {row.verdict for row in run.figures.of(study="comparison") if row.tolerance}
+
+
 def without_cost(result: dict) -> dict:
     """The content of a result.json without what may differ from run to run."""
     differs = ("made", "command", "files")

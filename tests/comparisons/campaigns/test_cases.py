@@ -241,7 +241,6 @@ def test_they_are_listed(capsys):
 @pytest.mark.parametrize(("value", "spread"), [("9.351 MPa", 5e-4 / 9.351), ("30 mm", 0.5 / 30)])
 def test_scatter_is_at_least_that_of_the_digits(value, spread):
     quantity = "peak_pressure" if "Pa" in value else "contact_length"
-    scene = resolved(
-        changed(PLAIN, published={"p0": STATED | {"value": value, "quantity": quantity}})
-    )
+    stated = STATED | {"value": value, "quantity": quantity}
+    scene = resolved(changed(PLAIN, published={"p0": stated}))
     assert scene.published["p0"].spread == pytest.approx(spread)

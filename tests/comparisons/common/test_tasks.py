@@ -45,10 +45,6 @@ def beside():
         yield tasks
 
 
-def number(here: Here) -> int:
-    return os.getpid()
-
-
 def home(here: Here) -> int:
     """Slow, so that each process takes part."""
     time.sleep(0.3)
@@ -87,10 +83,6 @@ def noted(here: Here, path: Path, name: str) -> str:
     return name
 
 
-def divided(here: Here) -> float:
-    return 1 / 0
-
-
 def dies(here: Here, path: Path, lives: int = 0) -> str:
     """Takes its process along, but for the `lives`th time."""
     with path.open("a") as file:
@@ -121,7 +113,7 @@ class TestOrder:
         for name, other in ("ab", "ba"):
             beside.add(name, met, tmp_path, name, other)
         assert beside.result("a") and beside.result("b")
-        beside.add("c", number)
+        beside.add("c", called, os.getpid)
         assert beside.result("c") != os.getpid()
 
     def test_the_urgent_come_first_then_the_long(self, one, tmp_path):
@@ -174,8 +166,8 @@ class TestProcesses:
         assert os.getpid() not in {process for _, process in answers}
 
     def test_errors_are_raised_where_they_are_asked_for(self, beside):
-        beside.add("bad", divided, urgency=FIRST)
-        beside.add("good", number)
+        beside.add("bad", called, divmod, 1, 0, urgency=FIRST)
+        beside.add("good", called, os.getpid)
         assert beside.result("good")
         with pytest.raises(ZeroDivisionError):
             beside.result("bad")
@@ -201,7 +193,7 @@ class TestKept:
                 tasks.add("a", noted, path, "a")
                 assert tasks.result("a") == "a"
         assert path.read_text() == "a" and not tasks._has_begun
-        tasks.add("bad", divided)
+        tasks.add("bad", called, divmod, 1, 0)
         with pytest.raises(ZeroDivisionError), tasks:
             tasks.result("bad")
         assert [path.name for path in kept.folder.iterdir()] == ["a.npz"]
@@ -220,7 +212,7 @@ class TestEnds:
             beside.result("dies")
         assert len({beside.result(name) for name in "abcd"} - {os.getpid()}) >= 1
         assert (tmp_path / "tried").read_text() == "xx"
-        beside.add("after", number)
+        beside.add("after", called, os.getpid)
         assert beside.result("after") != os.getpid()
 
     def test_a_task_that_lost_its_process_is_tried_alone(self, beside, tmp_path):
@@ -240,7 +232,7 @@ class TestEnds:
         asleep = "__import__('ctypes').PyDLL(None).sleep(300)"
         begin = time.monotonic()
         with pytest.raises(KeyboardInterrupt), one:
-            one.add("process", number)
+            one.add("process", called, os.getpid)
             process = one.result("process")
             one.add("asleep", called, eval, asleep)
             threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
@@ -258,7 +250,7 @@ class TestExecutor:
             while not all((tmp_path / name).exists() for name in "ab"):
                 time.sleep(0.01)  # with nobody waiting for a result
             assert tasks.result("a") and tasks.result("b")
-            tasks.add("bad", divided)
+            tasks.add("bad", called, divmod, 1, 0)
             with pytest.raises(ZeroDivisionError):
                 tasks.result("bad")
 

@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 from rich.console import Console
-from scenes import STEEL
+from scenes import STEADY, STEEL, as_toml, changed
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
@@ -27,6 +27,7 @@ WAVES = {
     "load": {"hertz_peak_pressure": "1 GPa", "friction": [0.0]},
     "resolution": {"levels": 2},
 }  # fmt: skip
+SINUSOID = {"kind": "sinusoid", "wavelength": "40 um"}
 
 
 def request(over):
@@ -148,11 +149,8 @@ def test_points_show_verdict_and_judged_errors_where_models_are_compared():
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("sweep")
-    (folder / "waves.toml").write_text(
-        '[roller]\nradius = 8e-3\nrigid = true\n[body]\nyoungs_modulus = "210 GPa"\n'
-        'poissons_ratio = 0.3\n[profile]\nkind = "sinusoid"\nwavelength = "40 um"\n'
-        'amplitude = "50 nm"\n[load]\nhertz_peak_pressure = "1 GPa"\n[resolution]\nlevels = 2\n'
-    )
+    tables = WAVES | {"title": "Waves", "profile": SINUSOID | {"amplitude": "50 nm"}}
+    (folder / "waves.toml").write_text(as_toml(tables))
     asked = ["sweep", str(folder / "waves.toml"), "--out", str(folder / "out"), "--workers", "1"]
     asked += ["--over", "profile.amplitude=20 nm,50 nm,5e-8", "--over", "roller.radius=8e-3,1e-2"]
     return folder / "out", asked, main(asked)
@@ -245,24 +243,20 @@ def test_points_that_fail_are_told_with_the_status_of_solvers(
 
 def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
     """Long waves bridge it, short ones do not, and friction does."""
-    (tmp_path / "waves.toml").write_text(
-        '[roller]\nradius = 5.76923e-3\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n'
-        '[body]\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n[profile]\n'
-        'kind = "sinusoid"\nwavelength = "40 um"\namplitude = "200 nm"\n[load]\n'
-        'hertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n[stress]\npoints = [120, 40]\n'
-        "[resolution]\nlevels = 2\n"
-    )
+    tables = changed(WAVES, load={"friction": [0, 0.3]}, stress={"points": [120, 40]})
+    tables |= {"title": "Waves", "profile": SINUSOID | {"amplitude": "200 nm"}}
+    tables |= {"roller": {"radius": 5.76923e-3, **STEEL}}
+    (tmp_path / "waves.toml").write_text(as_toml(tables))
     out = tmp_path / "out"
     asked = ["sweep", str(tmp_path / "waves.toml"), "--workers", "1", "--out", str(out)]
     for _ in range(2):  # the second goes on from the files of the first
         assert main([*asked, "--over", "profile.wavelength=20 um,45 um"]) == 0
         assert "quiescent_zone.svg" in capsys.readouterr().out
-    points = json.loads((out / "sweep.json").read_text())["points"]
-    zones = [p["quiescent_zone"]["half_plane"] for p in points]
+    content = json.loads((out / "sweep.json").read_text())
+    zones = [p["quiescent_zone"]["half_plane"] for p in content["points"]]
     statuses = [[entry["status"] for entry in entries] for entries in zones]
     assert statuses == [["quiescent", "bridged"], ["bridged", "bridged"]]
     assert all(0 <= entry["bridged"] <= entry["asperities"] for e in zones for entry in e)
-    content = json.loads((out / "sweep.json").read_text())
     with style.drawing():
         axes = zone_map_figure(content).axes
     shown = [[text.get_text() for text in panel.texts] for panel in axes]
@@ -274,9 +268,7 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
 
 
 def test_stresses_as_arrays():
-    tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6},
-              "stress": {"points": [21, 8], "depth": 1.0}}  # fmt: skip
-    run = crosscheck.run(tables, "half-plane")
+    run = crosscheck.run(STEADY | {"stress": {"points": [21, 8], "depth": 1.0}}, "half-plane")
     arrays = run.stress()
     shape = (*arrays["z"].shape, *arrays["x"].shape)
     assert len(shape) == 2 and arrays["z"][0] == 0.0 and np.all(np.diff(arrays["z"]) > 0.0)

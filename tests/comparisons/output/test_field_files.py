@@ -118,9 +118,8 @@ def test_vtu_in_pyvista(field, tmp_path):
 
 def test_notes_say_units_and_scene(outcome, field):
     assert field.notes["title"] == "Waves of 1 µm & <more>"
-    assert json.loads(field.notes["scene"]) == outcome.problem.surface.as_dict(
-        outcome.problem.scene
-    )
+    posed = outcome.problem
+    assert json.loads(field.notes["scene"]) == posed.surface.as_dict(posed.scene)
     assert json.loads(field.notes["units"]) == field.units
     assert list(field.units) == ["points", *names(field)] and field.units["points"] == "m"
 
@@ -226,13 +225,11 @@ def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
 def test_contact_curves_have_units_in_their_header(outcome, tmp_path):
     level = outcome.runs["half_plane"].finest
     write_contact(tmp_path / "contact.csv", outcome, level)
-    *notes, header = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[:3]
-    rows = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[3:]
-    assert notes[0].startswith(f"# crosscheck {versions()['crosscheck']}")
-    assert notes[0].endswith(": Waves of 1 µm & <more>")
-    assert json.loads(notes[1].removeprefix("# scene: ")) == outcome.problem.surface.as_dict(
-        outcome.problem.scene
-    )
+    text, posed = (tmp_path / "contact.csv").read_text(encoding="utf-8"), outcome.problem
+    made, scene, header, *rows = text.splitlines()
+    assert made.startswith(f"# crosscheck {versions()['crosscheck']}")
+    assert made.endswith(": Waves of 1 µm & <more>")
+    assert json.loads(scene.removeprefix("# scene: ")) == posed.surface.as_dict(posed.scene)
     assert header == "x [m],pressure [Pa],gap [m],deformed height [m]"
     read = np.array([row.split(",") for row in rows], dtype=float)
     assert read[:, 0] == pytest.approx(level.grid.x, rel=1e-11)

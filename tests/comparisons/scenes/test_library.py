@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import MEASURED, PROJECT, half_plane_at, judging, run_of
+from scenes import MEASURED, PROJECT, compared_verdicts, half_plane_at, judging, run_of
 
 from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
@@ -68,9 +68,7 @@ class TestGroundUnrun:
             assert effect in not_modelled_line(unrun)
         assert unrun.solved.refinement == "every judged quantity is resolved"
         assert len(unrun.runs["finite_element"].levels) == 3
-        assert all(
-            row.verdict == "agree" for row in unrun.figures.of(study="comparison") if row.tolerance
-        )
+        assert compared_verdicts(unrun) == {"agree"}
 
     def test_pressures_agree_on_the_same_hats(self, unrun):
         pairs = zip(*(unrun.runs[name].levels for name in MODELS), strict=True)
@@ -142,9 +140,7 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
 def test_other_scenes_agree(name):
     outcome = run_of(quick(name, effects=False), levels=FEW)
     assert outcome.exit_status == ExitStatus.INCONCLUSIVE  # no effect is computed
-    assert "agree" in {
-        row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance
-    }
+    assert "agree" in compared_verdicts(outcome)
 
 
 @pytest.mark.parametrize(
@@ -203,6 +199,4 @@ def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
     )
     outcome = run_of(Scene.read(scene))
     assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.INCONCLUSIVE)
-    assert {row.verdict for row in outcome.figures.of(study="comparison") if row.tolerance} == {
-        "agree"
-    }
+    assert compared_verdicts(outcome) == {"agree"}

@@ -33,11 +33,7 @@ from comparisons.campaigns.verify.manufactured import manufactured_cases
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
 from comparisons.campaigns.verify.rough import rough_operator_contacts, rough_scenes
 from comparisons.campaigns.verify.run import Verification, verification, verify
-from comparisons.campaigns.verify.scenes import (
-    half_plane_scenes,
-    layer_scenes,
-    scene_cases,
-)
+from comparisons.campaigns.verify.scenes import half_plane_scenes, layer_scenes, scene_cases
 from comparisons.common.errors import ExitStatus
 from comparisons.figures import convergence
 from comparisons.figures.convergence import Convergence

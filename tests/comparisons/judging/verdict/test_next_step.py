@@ -35,13 +35,7 @@ from comparisons.judging.effects.catalogue import LAW, SAMPLING
 from comparisons.judging.effects.selection import ASKED, selected_effects
 from comparisons.judging.model_error.model_error import INPUTS
 from comparisons.judging.model_error.refinement import ErrorBudget
-from comparisons.judging.study import (
-    CONVERGED,
-    MODEL_ERROR,
-    Case,
-    Run,
-    Solved,
-)
+from comparisons.judging.study import CONVERGED, MODEL_ERROR, Case, Run, Solved
 from comparisons.judging.verdict.headline import kind_of
 from comparisons.judging.verdict.next_step import Offer, next_of, pasted
 from comparisons.models.level import Solution

@@ -36,8 +36,8 @@ def balance(outcome):
     return outcome.figures.one(study="answers", quantity="load_balance").value
 
 
-def table(outcome, name, answer="other"):
-    series = outcome.findings["answers"].table(name, answer)
+def table(outcome, name):
+    series = outcome.findings["answers"].table(name, "other")
     return [] if series is None else series.rows()
 
 
@@ -149,8 +149,7 @@ def test_edges_are_found_between_points():
 
 
 def hints(outcome):
-    series = outcome.findings["answers"].table("hints")
-    return {row["kind"]: row for row in (series.rows() if series else ())}
+    return {row["kind"]: row for row in table(outcome, HINTS)}
 
 
 def test_a_tenth_of_a_half_width_aside(answered, curve, hertz):
@@ -188,8 +187,7 @@ def test_half_of_a_symmetric_model(answered, tmp_path, hertz):
     np.savetxt(tmp_path / "half.csv", np.column_stack([x, hertz.pressure(x)]), delimiter=",")
     outcome = answered({"file": str(tmp_path / "half.csv")})
     assert set(hints(outcome)) == {"half model"}
-    balance = outcome.figures.one(study="answers", quantity="load_balance").value
-    assert balance == pytest.approx(-0.5, abs=2e-3)
+    assert balance(outcome) == pytest.approx(-0.5, abs=2e-3)
 
 
 def test_a_mirrored_answer(answered, curve, hertz):

@@ -1,7 +1,6 @@
 """Uncertain inputs of a scene against Hertz's closed form, and what a run makes of them. Shares of
 variance against functions whose shares are known, and where these must vanish."""
 
-import json
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -19,6 +18,7 @@ from comparisons.common.tasks import Tasks
 from comparisons.judging.study import unsolved
 from comparisons.models.level import Solution
 from comparisons.models.plan import make_plan
+from comparisons.output.result import read_result
 from comparisons.runs.run import run
 from comparisons.scenes.studies.scatter import Spread
 from comparisons.scenes.surface import surface_of
@@ -111,12 +111,10 @@ def test_a_run_says_it(tmp_path, capsys, drawn_only):
     said = " ".join(capsys.readouterr().out.split())
     assert "Your inputs move the" in said and "most by load 100%" in said
     assert 'id="inputs"' in page and "Saltelli" in page
-    figures = json.loads((out / "result.json").read_text())["figures"]
-    wanted = {"study": "scatter", "quantity": "peak_pressure"}
-    [scatter] = [figure for figure in figures if wanted.items() <= figure.items()]
+    [scatter] = read_result(out).figures.of(study="scatter", quantity="peak_pressure")
     # the root of a load of 6 %, 1.96 deviations to either side
-    low, high = scatter["spread"]["interval"]
-    assert 0.5 * (high - low) / scatter["value"] == pytest.approx(0.03 * 1.96, rel=0.1)
+    low, high = scatter.spread.interval
+    assert 0.5 * (high - low) / scatter.value == pytest.approx(0.03 * 1.96, rel=0.1)
 
 
 def test_finished_samples_are_not_solved_again(tmp_path, monkeypatch):
