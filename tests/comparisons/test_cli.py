@@ -6,6 +6,7 @@ import subprocess
 import sys
 import types
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from scenes import PROJECT, STEADY, as_toml, python
@@ -122,10 +123,7 @@ def test_how_failures_end(solver, capsys, monkeypatch, error, status, line):
     [("map", "points"), ("sweep", "points"), ("cost", "levels"), ("stability", "cases")],
 )
 def test_an_interrupt_says_what_is_kept_whenever_it_comes(monkeypatch, capsys, command, kept):
-    def interrupted(app):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("comparisons.cli.get_command", interrupted)
+    monkeypatch.setattr("comparisons.cli.get_command", Mock(side_effect=KeyboardInterrupt))
     assert main([command]) == ExitStatus.INTERRUPTED
     left = f"finished {kept} are kept, the same command goes on from there"
     assert capsys.readouterr().err == f"crosscheck: interrupted; {left}\n"

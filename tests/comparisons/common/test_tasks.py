@@ -184,22 +184,21 @@ def lookup(here: Here) -> tuple[str, int]:
     return here.shared(), os.getpid()
 
 
-class TestKept:
-    def test_what_is_done_is_not_done_again(self, tmp_path):
-        kept, path = Cache(tmp_path / "kept", "key", {}), tmp_path / "order"
-        for _ in range(2):
-            tasks = Tasks(ProcessWorker, kept=kept)
-            with tasks:
-                tasks.add("a", noted, path, "a")
-                assert tasks.result("a") == "a"
-        assert path.read_text() == "a" and not tasks._has_begun
-        tasks.add("bad", called, divmod, 1, 0)
-        with pytest.raises(ZeroDivisionError), tasks:
-            tasks.result("bad")
-        assert [path.name for path in kept.folder.iterdir()] == ["a.npz"]
-        other = Tasks(kept=Cache(tmp_path / "kept", "another", {}))
-        other.add("a", noted, path, "a")
-        assert other.result("a") == "a" and path.read_text() == "aa"
+def test_what_is_done_is_not_done_again(tmp_path):
+    kept, path = Cache(tmp_path / "kept", "key", {}), tmp_path / "order"
+    for _ in range(2):
+        tasks = Tasks(ProcessWorker, kept=kept)
+        with tasks:
+            tasks.add("a", noted, path, "a")
+            assert tasks.result("a") == "a"
+    assert path.read_text() == "a" and not tasks._has_begun
+    tasks.add("bad", called, divmod, 1, 0)
+    with pytest.raises(ZeroDivisionError), tasks:
+        tasks.result("bad")
+    assert [path.name for path in kept.folder.iterdir()] == ["a.npz"]
+    other = Tasks(kept=Cache(tmp_path / "kept", "another", {}))
+    other.add("a", noted, path, "a")
+    assert other.result("a") == "a" and path.read_text() == "aa"
 
 
 class TestEnds:
@@ -242,17 +241,16 @@ class TestEnds:
             os.kill(process, 0)
 
 
-class TestExecutor:
-    def test_tasks_are_submitted_as_they_become_known(self, tmp_path):
-        with ThreadPoolExecutor(2) as pool, Tasks(partial(ExecutorWorker, pool), 9) as tasks:
-            for name, other in ("ab", "ba"):
-                tasks.add(name, met, tmp_path, name, other)
-            while not all((tmp_path / name).exists() for name in "ab"):
-                time.sleep(0.01)  # with nobody waiting for a result
-            assert tasks.result("a") and tasks.result("b")
-            tasks.add("bad", called, divmod, 1, 0)
-            with pytest.raises(ZeroDivisionError):
-                tasks.result("bad")
+def test_tasks_are_submitted_as_they_become_known(tmp_path):
+    with ThreadPoolExecutor(2) as pool, Tasks(partial(ExecutorWorker, pool), 9) as tasks:
+        for name, other in ("ab", "ba"):
+            tasks.add(name, met, tmp_path, name, other)
+        while not all((tmp_path / name).exists() for name in "ab"):
+            time.sleep(0.01)  # with nobody waiting for a result
+        assert tasks.result("a") and tasks.result("b")
+        tasks.add("bad", called, divmod, 1, 0)
+        with pytest.raises(ZeroDivisionError):
+            tasks.result("bad")
 
 
 def elsewhere(work, *args):

@@ -118,14 +118,13 @@ class TestGroups:
             set_to(tables, **{group: 0.1})
 
 
-class TestAxes:
-    def test_axes(self):
-        axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
-        assert (axis["group"], axis["logarithmic"]) == ("a_over_thickness", True)
-        assert axis["values"] == [0.1, 1.0, 10.0]
-        axis = axis_of("poissons_ratio", 3, "--x")
-        assert (axis["values"], axis["logarithmic"]) == ([0.0, 0.245, 0.49], False)
-        assert counts_of("3x12") == (3, 12)
+def test_axes():
+    axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
+    assert (axis["group"], axis["logarithmic"]) == ("a_over_thickness", True)
+    assert axis["values"] == [0.1, 1.0, 10.0]
+    axis = axis_of("poissons_ratio", 3, "--x")
+    assert (axis["values"], axis["logarithmic"]) == ([0.0, 0.245, 0.49], False)
+    assert counts_of("3x12") == (3, 12)
 
 
 def found_at(scene: Scene) -> dict:

@@ -88,17 +88,16 @@ class TestCheapest:
         assert chosen(rows, 5e-3) == rows[1:] and chosen(rows, 2e-2) == []
 
 
-class TestMethods:
-    def test_those_that_apply_beside_what_every_run_solves(self):
-        def names(tables):
-            return [model.label for model in methods_of(problem(tables))]
+def test_those_that_apply_beside_what_every_run_solves():
+    def names(tables):
+        return [model.label for model in methods_of(problem(tables))]
 
-        assert names(SMOOTH) == [PLANE, P2, P1, "finite elements, P3"]
-        assert names(LAYER) == [*names(SMOOTH), "half-plane, layered"]
-        finite = {"profile": WAVE, "load": {"per_length": 2e5}}
-        finite["finite_element"] = {"deformation": "finite"}
-        nonlinear = [PLANE, P2, "finite elements, linear", "half-plane, deformed"]
-        assert names(SMOOTH | finite) == nonlinear
+    assert names(SMOOTH) == [PLANE, P2, P1, "finite elements, P3"]
+    assert names(LAYER) == [*names(SMOOTH), "half-plane, layered"]
+    finite = {"profile": WAVE, "load": {"per_length": 2e5}}
+    finite["finite_element"] = {"deformation": "finite"}
+    nonlinear = [PLANE, P2, "finite elements, linear", "half-plane, deformed"]
+    assert names(SMOOTH | finite) == nonlinear
 
 
 def test_what_fails_costs_its_row_and_what_there_is_no_time_for_is_not_begun(monkeypatch):

@@ -17,8 +17,6 @@ from comparisons.judging.study import LADDER, MODEL_ERROR, WHY_NOT
 from comparisons.output.result import result_of
 
 STIFFER = 1.01
-
-
 TOLERANT = {"peak_pressure": 0.1, "contact_length": 0.1, "tau1_max": 0.1}
 
 

@@ -10,15 +10,12 @@ from scenes import exact_layer, finite_elements, problem
 
 from analytic.exact.layers import TABLE
 
-CASES = json.loads(TABLE.read_text())["cases"]
-
-
-def ratios_of_poisson(case: dict) -> list[float]:
-    """On a frictionless base figures over E' are the same at any Poisson's ratio."""
-    return [0.3, 0.4999] if case["nu"] == "any" else [float(case["nu"])]
-
-
-ALL = [(case, nu) for case in CASES for nu in ratios_of_poisson(case)]
+# On a frictionless base figures over E' are the same at any Poisson's ratio.
+ALL = [
+    (case, nu)
+    for case in json.loads(TABLE.read_text())["cases"]
+    for nu in ([0.3, 0.4999] if case["nu"] == "any" else [float(case["nu"])])
+]
 
 
 @pytest.mark.parametrize(

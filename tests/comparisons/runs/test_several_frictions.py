@@ -74,8 +74,7 @@ def test_every_coefficient_has_its_files_and_they_are_read_again(runs):
 
 
 def test_an_approach_takes_one_coefficient():
-    layer = {"body": {"thickness": 1e-3}, "load": {"hertz_peak_pressure": None, "approach": 2e-6}}
-    tables = changed(TABLES, **layer, finite_element={"deformation": "finite"})
-    del tables["load"]["hertz_peak_pressure"]
+    tables = changed(TABLES, body={"thickness": 1e-3}, finite_element={"deformation": "finite"})
+    tables["load"] = {"approach": 2e-6, "friction": FRICTIONS}
     with pytest.raises(SceneError, match=r"load\.friction: has 2 coefficients.*allowed is one"):
         problem_of_approach(resolved(tables), no_progress)

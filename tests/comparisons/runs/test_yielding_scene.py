@@ -9,11 +9,9 @@ from scenes import STEEL, changed, finite_elements, problem, resolved
 
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.numbers import decimal, significant
-from comparisons.common.progress import Stages
 from comparisons.figures.quantity import MODELS
 from comparisons.figures.uncertainty import length_resolution
 from comparisons.judging.rule import judged, values_of
-from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.loaded import refuse_cut_off
 from comparisons.models.finite_element.mesh import Refinement, expected, flow_increments
 from comparisons.models.level import flowing_contact
@@ -194,10 +192,9 @@ def test_a_turned_metal_flows_below_an_elastic_roller():
     there. Load and contact conditions hold far below what Newton's method may leave. What the level
     was expected to take is what a plan says of it."""
     posed = problem(TURNED)
-    coarse = Refinement(posed.pitches[0], travel=4.0)
-    [level] = finite_element_level(posed, coarse, Stages()).values()
+    level = finite_elements(posed, travel=4.0)
     solution = level.solution
     assert solution.converged and solution.residuals.worst < 1e-11
-    cost = expected(posed, coarse, flowing_contact(posed))
+    cost = expected(posed, Refinement(posed.pitches[0], travel=4.0), flowing_contact(posed))
     assert (level.expected_seconds, level.expected_memory) == (cost.seconds, cost.memory)
     assert 2.5 * 280e6 < solution.pressure.max() < 3.7 * 280e6

@@ -54,11 +54,9 @@ def test_a_broken_solver_fails_the_rows(monkeypatch):
 
 def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch):
     original = contact.exchange
-
-    def hasty(problem, start, **settled):
-        return np.maximum(original(problem, start, **settled), 1e-6)
-
-    monkeypatch.setattr(contact, "exchange", hasty)
+    monkeypatch.setattr(
+        contact, "exchange", lambda *given, **how: np.maximum(original(*given, **how), 1e-6)
+    )
     assert not row_of("half_plane", "load 1e-12 of modulus times length").holds
 
 
@@ -70,11 +68,7 @@ def test_a_broken_layer_fails_the_rows(monkeypatch):
 
 def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch):
     original = half_plane.coupled_half_planes
-
-    def turned(*constants):
-        return original(*constants[:3], -constants[3])
-
-    monkeypatch.setattr(half_plane, "coupled_half_planes", turned)
+    monkeypatch.setattr(half_plane, "coupled_half_planes", lambda *c: original(*c[:3], -c[3]))
     assert not row_of("half_plane", "friction 1, rigid on nu = 0").holds
 
 

@@ -31,13 +31,10 @@ def errors(
 ) -> dict[str, Figure]:
     """Errors of the largest shear and its depth; the same on all three levels. `read` gives another
     model's error of the solutions and a quantity."""
-    level = SimpleNamespace
-    runs = {
-        name: SimpleNamespace(
-            levels=[level(values=of, solution=None)] * 3, finest=level(values=of, solution=None)
-        )
-        for name, of in (("half_plane", half_plane), ("finite_element", plain))
-    }
+    runs = {}
+    for name, of in (("half_plane", half_plane), ("finite_element", plain)):
+        level = SimpleNamespace(values=of, solution=None)
+        runs[name] = SimpleNamespace(levels=[level] * 3, finest=level)
     pairs = {name: (name, "plain") for name in effects}
     split = SplitVariants("whole", None, "plain", pairs, {}, ())
     history = [{"whole": whole, None: plain, "plain": plain, **effects}] * 3

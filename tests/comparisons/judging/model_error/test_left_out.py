@@ -12,7 +12,7 @@ from comparisons.figures.quantity import MODELS
 from comparisons.judging import comparison
 from comparisons.judging.model_error import study as model_error
 from comparisons.judging.model_error.error_budget import error_budget
-from comparisons.judging.study import Solved, unsolved
+from comparisons.judging.study import unsolved
 from comparisons.judging.verdict.headline import validity
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
@@ -117,10 +117,6 @@ def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
     changed = SMALL | {"resolution": {"pitch": pitch, "levels": 3}, "budget": {"time": 20.0}}
     problem = problem_with(**changed, roller=RIGID, profile=WAVY)
     plan, tasks = make_plan(problem, MODELS), Tasks()
-
-    def begin(solved: Solved) -> None:
-        model_error.begin(solved, tasks)
-
-    refined(unsolved(problem, plan), tasks, begin)
+    refined(unsolved(problem, plan), tasks, lambda solved: model_error.begin(solved, tasks))
     wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
     assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]

@@ -75,10 +75,8 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
 def test_a_thick_plate_counts_against_a_body_that_ends_farther_away():
     """743 half-widths thick: by the layer's own operator largest shears rise by 0.15 %."""
     outcome = run_of(THICK_PLATE)
-    read = outcome.figures.of(
-        quantity="tau1_max", study="layered", source="operators", against=None
-    )
-    layer = read.one().value
+    wanted = {"quantity": "tau1_max", "study": "layered", "source": "operators"}
+    layer = outcome.figures.one(**wanted, against=None).value
     exact = layer / outcome.problem.hertz.tau1_max - 1.0
     part = outcome.model_errors.one(quantity="tau1_max").part("finite_size")
     assert exact == pytest.approx(0.001448, abs=3e-6)

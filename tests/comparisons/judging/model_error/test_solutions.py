@@ -30,11 +30,7 @@ def made(problem_with):
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
     solved = refined(unsolved(problem, plan), Tasks())
-
-    def variants(tasks) -> EffectRefinement:
-        return EffectRefinement(solved, tasks, SELECTION)
-
-    return variants
+    return lambda tasks: EffectRefinement(solved, tasks, SELECTION)
 
 
 def test_variants_of_other_processes_are_as_here(made, monkeypatch):

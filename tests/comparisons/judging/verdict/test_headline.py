@@ -120,12 +120,8 @@ def test_next_offers_no_figure_that_is_not_known_or_that_the_body_cannot_bear(sm
 
 def test_inconclusive_by_what_is_not_modelled(smooth_outcome: Run):
     sizes = {"plastic_flow": {"contact_length": 0.1}, "exact_circle": {"contact_length": 0.001}}
-    missing = EffectSelection(
-        frozenset(),
-        frozenset(),
-        {"plastic_flow": "the body has no yield stress"},
-        sizes,
-    )
+    why = {"plastic_flow": "the body has no yield stress"}
+    missing = replace(NONE, impossible=why, estimates=sizes)
     for value in (1e-3, 0.05):
         error = error_of("contact_length", value, 1e-4)
         said = headline(judged(smooth_outcome, error, selection=missing))
