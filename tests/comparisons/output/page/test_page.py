@@ -58,22 +58,16 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
     ]
     names = [value for tag, name, value in wavy_page.attributes if name == "download"]
     assert len(texts) == len(names) >= 6 and all(name.endswith(".csv") for name in names)
-    [curves] = [
-        list(csv.reader(text.splitlines()))
-        for name, text in zip(names, texts, strict=True)
-        if name.startswith("contact-pressure")
-    ]
+    tables = [list(csv.reader(text.splitlines())) for text in texts]
+    named = list(zip(names, tables, strict=True))
+    [curves] = [table for name, table in named if name.startswith("contact-pressure")]
     column = curves[0].index("p/p₀, half-plane")
     level = wavy_outcome.runs["half_plane"].finest
     shown = {row[column - 1]: row[column] for row in curves[1:]}
     highest = level.solution.pressure.max() / wavy_outcome.problem.hertz.peak_pressure
     assert max(float(text) for text in shown.values() if text) == pytest.approx(highest, rel=1e-5)
     assert {len(row) for row in curves} == {len(curves[0])}
-    [steps] = [
-        list(csv.reader(text.splitlines()))
-        for name, text in zip(names, texts, strict=True)
-        if name.startswith("the-half-plane-s-model-error")
-    ]
+    [steps] = [table for name, table in named if name.startswith("the-half-plane-s-model-error")]
     panels = waterfalls(wavy_outcome)
     assert steps[0] == ["quantity", "step", "relative size"]
     assert {row[0] for row in steps[1:]} == {panel.name for panel in panels}
