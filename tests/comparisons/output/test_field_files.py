@@ -53,10 +53,6 @@ def names(field) -> list[str]:
     return [f"{name} (friction {mu})" for some in named for mu in ("0", "0.1") for name in some]
 
 
-def unit_of(name: str) -> str:
-    return "m" if name.startswith("displacement") else "1" if name.startswith("s1_") else "Pa"
-
-
 def written(field, folder):
     """The path of its file."""
     path = folder / "stress.vtu"
@@ -105,8 +101,8 @@ def test_vtu_in_pyvista(field, tmp_path):
     grid = pyvista.read(written(field, tmp_path))
     assert sorted(grid.point_data) == sorted(names(field))
     for name in names(field):
-        unit = field.units[name]
-        assert unit == unit_of(name)
+        unit = "m" if name.startswith("displacement") else "1" if name.startswith("s1_") else "Pa"
+        assert field.units[name] == unit
         assert np.array_equal(grid.point_data[name], field.arrays[name])
         information = grid.GetPointData().GetArray(name).GetInformation()
         assert information.Get(vtkDataArray.UNITS_LABEL()) == unit

@@ -30,15 +30,12 @@ RANGES = {
 }
 
 
-def values_of(solid):
-    return (*solid.values.values(), *solid.typical.values())
-
-
 def keys_of(solid):
+    values = (*solid.values.values(), *solid.typical.values())
     return {
         *solid.law_sources,
         *solid.alias_sources,
-        *(key for value in values_of(solid) for key in value.sources),
+        *(key for value in values for key in value.sources),
     }
 
 
