@@ -34,9 +34,7 @@ class ExecutorWorker:
         self._future.cancel()
 
     @staticmethod
-    def ready(
-        workers: Sequence["ExecutorWorker"], timeout: float | None = None
-    ) -> list["ExecutorWorker"]:
+    def ready(workers: Sequence["ExecutorWorker"], timeout: float) -> list["ExecutorWorker"]:
         done = wait([worker._future for worker in workers], timeout, FIRST_COMPLETED).done
         return [worker for worker in workers if worker._future in done]
 

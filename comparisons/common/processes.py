@@ -72,9 +72,7 @@ class ProcessWorker:
         self._pipe.close()
 
     @staticmethod
-    def ready(
-        workers: Sequence["ProcessWorker"], timeout: float | None = None
-    ) -> list["ProcessWorker"]:
+    def ready(workers: Sequence["ProcessWorker"], timeout: float) -> list["ProcessWorker"]:
         """Workers that have something to say, or have ended; waits for one."""
         pipes = {worker._pipe: worker for worker in workers}
         return [pipes[pipe] for pipe in wait(list(pipes), timeout)]
@@ -82,7 +80,8 @@ class ProcessWorker:
 
 def _work(serve: Callable[[Connection], None], pipe: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    end_with_parent()
+    with suppress(OSError, AttributeError):  # the system kills it with its parent; only Linux can
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != multiprocessing.parent_process().pid:
         os._exit(1)  # it ended before that
     with suppress(OSError):
@@ -156,9 +155,3 @@ def environment(wanted: dict[str, str]) -> Iterator[None]:
         for name in wanted:
             del os.environ[name]
         os.environ.update(before)
-
-
-def end_with_parent() -> None:
-    """Let the system kill this process when its parent is killed; only Linux can."""
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)

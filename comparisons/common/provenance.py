@@ -57,21 +57,17 @@ def revision() -> str | None:
 
 
 def machine() -> dict[str, str | int | None]:
-    """Properties of the machine that a run's times depend on."""
+    """Properties of the machine that a run's times depend on; threads are OpenMP's of the outermost
+    level, None where OMP_NUM_THREADS says nothing legal."""
+    threads = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
     return {
         "system": platform.system(),
         "release": platform.release(),
         "architecture": platform.machine(),
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "threads": _threads(),
+        "threads": int(threads) or None if is_whole(threads) else None,
     }
-
-
-def _threads() -> int | None:
-    """Threads of the outermost level by OMP_NUM_THREADS; None where it says nothing legal."""
-    first = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
-    return int(first) or None if is_whole(first) else None
 
 
 def _processor() -> str | None:

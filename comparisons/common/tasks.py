@@ -217,7 +217,8 @@ class Tasks:
         else:
             task = self._tasks[key]
             self._answer(key, *_answered(task.work, self._here, *task.args))
-        self._keep()
+        while self._unkept:  # while workers have their next tasks: nobody waits for the disk
+            self.kept.save(*self._unkept.popitem())
 
     def _begin(self) -> None:
         """Let workers begin, where there are to be any and the tasks are worth them."""
@@ -316,11 +317,6 @@ class Tasks:
         self._done += self._tasks[key].seconds
         if good and is_new:
             self._unkept[key] = answer
-
-    def _keep(self) -> None:
-        """Write what is new, while workers have their next tasks: nobody waits for the disk."""
-        while self._unkept:
-            self.kept.save(*self._unkept.popitem())
 
     def _tell(self, stage: str) -> None:
         left = sum(task.seconds for task in self.left().values())

@@ -222,9 +222,8 @@ def stated_text(column: Column) -> list[str]:
 
 def series_table(title: str, series: Series) -> TextTable:
     """A row for each of a series' columns, by its name in words; the first is the head."""
-    head, *rows = ((_of_column(name), *stated_text(c)) for name, c in series.columns.items())
+    head, *rows = (
+        (name.removeprefix("figures.").replace("_", " ").replace(".", ", "), *stated_text(column))
+        for name, column in series.columns.items()
+    )
     return TextTable(title, head, tuple(rows))
-
-
-def _of_column(name: str) -> str:
-    return name.removeprefix("figures.").replace("_", " ").replace(".", ", ")

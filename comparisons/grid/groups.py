@@ -212,11 +212,6 @@ def _set_slope(scene: Scene, value: float) -> Changes:
     return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
 
 
-def _coating(problem: Problem) -> float | None:
-    coating = problem.scene.coating
-    return None if coating is None else coating.thickness / problem.hertz.half_width
-
-
 def _modulus_ratio(section: str, problem: Problem) -> float | None:
     """Ratio of plane strain moduli, which contacts know of; that of Young's where bodies are alike
     in Poisson's ratio."""
@@ -245,7 +240,9 @@ FUNCTIONS = {  # set_to, value_of
     "modulus_ratio": (_set_modulus_ratio, partial(_modulus_ratio, "roller")),
     "coating_over_a": (
         lambda scene, value: {"coating.thickness": value * _half_width(scene)},
-        _coating,
+        lambda posed: (
+            posed.scene.coating and posed.scene.coating.thickness / posed.hertz.half_width
+        ),
     ),
     "coating_modulus_ratio": (
         lambda scene, value: {"coating.youngs_modulus": value * scene.body.youngs_modulus},

@@ -3,9 +3,8 @@
 In: the folders of runs. Out: records, CSV, or a table for people. What is unknown is empty in a
 CSV."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,11 +27,15 @@ FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadshe
 class FigureTable(Records):
     """Figures of runs, with all COLUMNS; it prints what is judged, by run."""
 
-    rows: Sequence[Row]
     title: str = "run"  # column that a run is called by
 
     def tables(self) -> "RenderableType":
-        return rows_tables(judged_rows(self.rows), partial(right_within, name=self.title))
+        return rows_tables(judged_rows(self.rows), self._right_within)
+
+    def _right_within(self, row: Row) -> str:
+        """A title: the run, and what the half-plane is right within."""
+        size = "unknown" if row["within"] is None else percent_as_written(rounded_up(row["within"]))
+        return f"{row[self.title]}, right within {size}"
 
     @property
     def csv(self) -> str:
@@ -96,10 +99,3 @@ def judged_rows(rows: Iterable[Row]) -> list[Row]:
         judged = [row for row in same if row["verdict"] and row["study"] != LADDER]
         shown += judged or [row for row in same if row["study"] == contact.NAME]
     return shown
-
-
-def right_within(row: Row, name: str = "run") -> str:
-    """A title: the run, by its folder or another column, and what the half-plane is right
-    within."""
-    size = "unknown" if row["within"] is None else percent_as_written(rounded_up(row["within"]))
-    return f"{row[name]}, right within {size}"

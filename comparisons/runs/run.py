@@ -32,15 +32,7 @@ from comparisons.common.provenance import (
     revision,
     versions,
 )
-from comparisons.common.tasks import (
-    AT_ONCE,
-    Here,
-    Opens,
-    Preparation,
-    ProcessEnded,
-    Tasks,
-    tasks_here,
-)
+from comparisons.common.tasks import AT_ONCE, Here, Opens, ProcessEnded, Tasks, tasks_here
 from comparisons.figures.figure import Findings
 from comparisons.judging.model_error.study import selection_lines
 from comparisons.judging.study import Run, Solved, studied, unsolved
@@ -200,8 +192,13 @@ def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels 
 
 
 def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
-    there = _for_finite_elements() if "finite_element" in models else ()
-    here = [revision, *(partial(import_module, name) for name in ANSWER)]
+    here, there = [revision, *(partial(import_module, name) for name in ANSWER)], []
+    if "finite_element" in models:
+        from fem.solver.compilation import load_dolfinx
+        from meshes.build import start_worker
+
+        level = partial(import_module, "comparisons.models.finite_element.level")
+        there = [start_worker, load_dolfinx, level]
     return tasks_here(memory=scene.budget.memory, here=here, there=there)
 
 
@@ -275,11 +272,3 @@ def _hashes(solved: Solved, findings: Mapping[str, Findings]) -> dict[str, objec
         if files.name == "files":
             hashes[f"answer_{files.source}"] = list(files.columns["sha256"].values)
     return hashes
-
-
-def _for_finite_elements() -> list[Preparation]:
-    from fem.solver.compilation import load_dolfinx
-    from meshes.build import start_worker
-
-    level = partial(import_module, "comparisons.models.finite_element.level")
-    return [start_worker, load_dolfinx, level]

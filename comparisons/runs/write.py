@@ -51,14 +51,10 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
         record = found.record | {"files": sorted([*files, RESULT, REPORT])}
         write_result(replace(found, record=record), folder)
     callback("drawing the report")
-    page = attempted("report", partial(_page, outcome))
+    page = attempted("report", lambda: import_module(PAGE).render(outcome))
     if drawn := isinstance(page, str):
         write_whole(outcome.directory / REPORT, page)
     return drawn
-
-
-def _page(outcome: Run) -> str:
-    return import_module(PAGE).render(outcome)
 
 
 def _write_others(here: Here, folder: Path, names: Sequence[str]) -> None:

@@ -63,11 +63,6 @@ class Effect:
         parts = [attrgetter(name)(scene) is not None for name in self.takes]
         return switches == self.sets if switches else any(parts)
 
-    def given_by(self, scene: Scene) -> dict[str, object]:
-        """Fields of a scene that give it the effect: a plainer scene is given it so."""
-        sets = {f"finite_element.{name}": value for name, value in self.sets.items()}
-        return sets | {name: attrgetter(name)(scene) for name in self.takes}
-
 
 # In the order of the sums of their contributions, whose last bit depends on it.
 EFFECTS = {
@@ -183,7 +178,8 @@ def fields_with(scene: Scene, names: Iterable[str]) -> dict[str, object]:
     fields |= {f"finite_element.{name}": value for name, value in sets.items()}
     for name, effect in EFFECTS.items():
         if name in names:
-            fields |= effect.given_by(scene)
+            fields |= {f"finite_element.{switch}": value for switch, value in effect.sets.items()}
+            fields |= {field: attrgetter(field)(scene) for field in effect.takes}
     return fields
 
 

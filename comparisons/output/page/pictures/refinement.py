@@ -56,11 +56,6 @@ def convergence_picture(run: Run) -> style.Picture | None:
     )
 
 
-def source_of(figure: Figure) -> str:
-    """A model, or DIFFERENCE."""
-    return DIFFERENCE if figure.against else figure.source
-
-
 def _drawn(run: Run, panels: dict[str, list[Figure]]) -> "Drawn":
     abreast = -(-len(panels) // -(-len(panels) // ABREAST))  # rows of about equal lengths
     heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(-(-len(panels) // abreast))]
@@ -83,7 +78,8 @@ def _draw(axes: "Axes", figures: list[Figure], pitch: np.ndarray) -> None:
     """All models' errors of one figure [%] over the pitch [µm]."""
     largest = 0.0, 0.0
     for figure in figures:
-        known, source = figure.uncertainty.convergence, source_of(figure)
+        known = figure.uncertainty.convergence
+        source = DIFFERENCE if figure.against else figure.source
         error = np.abs(np.array(figure.levels) - known.limit)
         error *= 100.0 / (1.0 if figure.against else figure.scale)
         seen = np.where(error > 100.0 * LEAST, error, np.nan)
