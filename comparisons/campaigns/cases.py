@@ -220,8 +220,7 @@ def rows_of(
 def answers_of(out: Path, command: str, cases: Iterable[Trial]) -> Cache:
     """Results of a command into `out` that was stopped, of the same cases by the same code."""
     names = [[case.group, case.name, case.model] for case in cases]
-    code = program_code("analytic", "comparisons", "fem", "meshes")
-    key = key_of(names, versions(), code)
+    key = key_of(names, versions(), program_code("analytic", "comparisons", "fem", "meshes"))
     return Cache(unfinished(out, command), key, kinds_of(Figure))
 
 

@@ -20,7 +20,7 @@ from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError
 from comparisons.common.files import csv_text
 from comparisons.common.numbers import is_whole
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.progress import ProgressCallback
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, versions
 from comparisons.common.units import DIMENSIONLESS, UnitError, to_si
 from comparisons.grid.points import (
@@ -190,10 +190,7 @@ def _placements(count: int, scenes: Sequence[Scene]) -> tuple[float, ...]:
 
 
 def make_sweep(
-    request: Request,
-    out: Path,
-    workers: int | str | None = None,
-    callback: ProgressCallback = no_progress,
+    request: Request, out: Path, workers: int | str | None, callback: ProgressCallback
 ) -> "Sweep":
     """The sweep, in `out`, where the points are solved that it does not have.
 

@@ -85,8 +85,7 @@ def field_of(run: Run, levels: Mapping[float, Level]) -> FieldFile:
     arrays = {name: values.astype(np.float32) for name, values in arrays.items()}
     points = _in_space(plane).astype(np.float32)
     units = {"points": "m"} | {name: _unit(name) for name in arrays}
-    text = scene_text(run.problem)
-    notes = {"title": scene.title, "units": json.dumps(units), "scene": text}
+    notes = {"title": scene.title, "units": json.dumps(units), "scene": scene_text(run.problem)}
     return FieldFile(points, cells, arrays, units, notes)
 
 

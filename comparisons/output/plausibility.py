@@ -91,9 +91,7 @@ def _of_solids(scene: Scene) -> Iterator[str]:
     for name in ("roller", "body"):
         section = getattr(scene, name)
         solid = solids()[section.solid] if section.solid else None
-        if solid is None or not (solid.has_constants and section.departures):
-            continue
-        if section.law is None:
+        if solid and solid.has_constants and section.departures and section.law is None:
             written = " and ".join(f"{name}.{field}" for field in section.departures)
             yield (
                 f"{written}: {solid.name} has another value, to which its measured third-order "

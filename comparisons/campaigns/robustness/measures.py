@@ -57,10 +57,7 @@ class LoadedContact:
     def patches(self) -> np.ndarray:
         return contact_patches(self.x, self.solution.pressure, self.solution.gap)
 
-    @property
-    def contact_length(self) -> float:
-        """Sum of the patches [m]."""
-        return float(np.ptp(self.patches, axis=1).sum())
+    contact_length = Level.contact_length
 
     def figures(self, *figures: Figure) -> CaseFigures:
         """The figures, the contact conditions, and the operator's applications; with the condition

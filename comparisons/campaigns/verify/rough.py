@@ -18,14 +18,12 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
-from comparisons.campaigns.cases import Trial
-from comparisons.campaigns.verify.operators import OperatorContact, operator_cases
+from comparisons.campaigns.verify.operators import OperatorContact
 from comparisons.campaigns.verify.scenes import (
     LINEAR,
     ExactScene,
     elastic_table,
     fine_half_plane,
-    scene_cases,
     spread,
 )
 from comparisons.models.problem import Problem
@@ -63,10 +61,6 @@ def rough_contact(
     friction, layer = FRICTIONS[seed % len(FRICTIONS)], BODIES[body]
     material, roller = (STEEL, STEEL) if layer is None else (layer.material, None)
     return ManufacturedContact(patches, material, roller, layer, friction)
-
-
-def rough_cases() -> list[Trial]:
-    return [*scene_cases(rough_scenes()), *operator_cases(rough_operator_contacts(), ELEMENTS)]
 
 
 def rough_scenes(

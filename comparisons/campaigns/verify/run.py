@@ -35,7 +35,7 @@ from comparisons.campaigns.verify.coverage import (
     pairs_of,
 )
 from comparisons.campaigns.verify.operators import operator_cases, operator_contacts
-from comparisons.campaigns.verify.rough import rough_cases
+from comparisons.campaigns.verify.rough import ELEMENTS, rough_operator_contacts, rough_scenes
 from comparisons.campaigns.verify.scenes import exact_scenes, scene_cases
 from comparisons.common.errors import check_finite_elements
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -117,8 +117,10 @@ def everything() -> list[Trial]:
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
 
     smooth = [*scene_cases(exact_scenes()), *operator_cases(operator_contacts())]
+    on_operators = operator_cases(rough_operator_contacts(), ELEMENTS)
+    rough = [*scene_cases(rough_scenes()), *on_operators]
     bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
-    return [*smooth, *rough_cases(), *manufactured_cases(bodies), *independent_cases()]
+    return [*smooth, *rough, *manufactured_cases(bodies), *independent_cases()]
 
 
 def verify(
