@@ -14,10 +14,7 @@ from comparisons.judging.model_error.show import error_table
 from comparisons.judging.presentation import lines_of
 from comparisons.judging.study import MODEL_ERROR, Run
 from comparisons.judging.verdict.headline import headline, verdicts
-from comparisons.output.page.tables.comparison import (
-    comparison_table,
-    first_model,
-)
+from comparisons.output.page.tables.comparison import comparison_table, first_model
 from comparisons.output.page.tables.problem import surface_text
 from comparisons.studies import STUDIES
 from comparisons.studies.answers.show import answer_facts, answer_table, answers_of

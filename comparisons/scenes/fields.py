@@ -9,14 +9,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated, Any, ClassVar, Self, get_args
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Field,
-    StrictStr,
-    model_validator,
-)
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictStr, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import core_schema
 

@@ -7,14 +7,7 @@ import numpy as np
 from pydantic import Field, StrictInt
 
 from comparisons.common.units import LENGTH, LOAD
-from comparisons.scenes.fields import (
-    Length,
-    Number,
-    Pressure,
-    SceneSection,
-    Several,
-    optional,
-)
+from comparisons.scenes.fields import Length, Number, Pressure, SceneSection, Several, optional
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most

@@ -25,12 +25,7 @@ from comparisons.judging.study import LADDER, MODEL_ERROR, Run
 from comparisons.models.plan import time_with_flow, with_one_more
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import TABOR
-from comparisons.scenes.materials import (
-    kinds_like,
-    measured_solids,
-    solids,
-    typical_range,
-)
+from comparisons.scenes.materials import kinds_like, measured_solids, solids, typical_range
 from comparisons.scenes.scene import settings_of, with_law, with_settings, with_tolerance
 from comparisons.scenes.sections import ElasticSection
 

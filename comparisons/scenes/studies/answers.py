@@ -20,15 +20,7 @@ from comparisons.common.units import (
     unit_in_si,
 )
 from comparisons.figures.quantity import LABELS
-from comparisons.scenes.fields import (
-    Fraction,
-    Number,
-    SceneSection,
-    Several,
-    Text,
-    Unit,
-    optional,
-)
+from comparisons.scenes.fields import Fraction, Number, SceneSection, Several, Text, Unit, optional
 from comparisons.scenes.files import read_toml
 from comparisons.scenes.header_units import unit_of_column
 from comparisons.scenes.profile import Columns

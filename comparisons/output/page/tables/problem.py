@@ -2,13 +2,7 @@
 
 from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS
-from comparisons.common.numbers import (
-    as_written,
-    listed,
-    plain,
-    significant,
-    with_unit,
-)
+from comparisons.common.numbers import as_written, listed, plain, significant, with_unit
 from comparisons.drawing.blocks import Heading, Names, TextTable
 from comparisons.drawing.curves import hertz_text
 from comparisons.drawing.tables import facts_of, figure_table

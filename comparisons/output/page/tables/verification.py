@@ -22,14 +22,7 @@ from comparisons.common.provenance import PROJECT
 from comparisons.drawing.blocks import Names, TextTable
 from comparisons.figures.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, Convergence
 from comparisons.figures.figure import Figure, Figures
-from comparisons.figures.quantity import (
-    COMPARED,
-    HYPHENATED,
-    LABELS,
-    NORMS,
-    QUANTITIES,
-    label,
-)
+from comparisons.figures.quantity import COMPARED, HYPHENATED, LABELS, NORMS, QUANTITIES, label
 from comparisons.figures.uncertainty import COVERAGE
 from comparisons.judging import contact
 from comparisons.judging.study import Run
