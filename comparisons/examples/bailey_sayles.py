@@ -103,8 +103,8 @@ class PressedSurface:
 
     def opening(self, mu: float) -> float:
         """Highest level, in smooth maxima, at which that zone reaches the surface."""
-        tau1, levels = self.stress["tau1", mu], np.linspace(0.0, 1.0, 401)
-        return max(level for level in levels if self.zone(tau1, level)[0].any())
+        tau1, levels = self.stress["tau1", mu], np.linspace(1.0, 0.0, 401)
+        return next(level for level in levels if self.zone(tau1, level)[0].any())
 
 
 def hertz(x: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -46,9 +46,7 @@ def steel(radius: float, peak_pressure: float, friction: float = 0.0, **roller: 
 
 # What both scenes have, and the switches that one of them has beside it.
 SCENES = {
-    "rubber": (RUBBER, STRAINED),
     "rubber, friction": (changed(RUBBER, load={"friction": 0.3}), STRAINED | COUPLED),
-    "rubber layer": (changed(RUBBER, body={"thickness": 5e-3}), STRAINED),
     "steel block, friction": (
         changed(steel(10e-3, 2e9, 0.2), body={"thickness": 2e-3, "width": 4e-3}),
         STRAINED | COUPLED,
@@ -59,6 +57,7 @@ SCENES = {
         STRAINED | COUPLED | DISC,
     ),
     "coated steel, friction": (steel(5e-3, 2.5e9, 0.2) | {"coating": COATING}, STRAINED | COUPLED),
+    "rubber layer": (changed(RUBBER, body={"thickness": 5e-3}), STRAINED),
 }
 
 
@@ -94,7 +93,7 @@ def both(name: str, levels: int, elements: float) -> list[tuple[Figure, float]]:
 @pytest.mark.parametrize("name", SCENES)
 def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
     # between waves the pressures of a coarse grid do not reach far enough
-    for stated, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
+    for stated, direct in both(name, levels=2, elements=48.0 if "waves" in name else 24.0):
         assert abs(stated.value - direct) <= stated.numerical < np.inf, stated.quantity
         if stated.quantity == "peak_pressure":
             assert stated.numerical < 0.05
@@ -102,5 +101,5 @@ def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
 
 def test_on_the_same_levels_they_are_the_same():
     """Relative to the whole model, wherever it comes from."""
-    for stated, direct in both("rubber layer", levels=3, elements=16.0):
+    for stated, direct in both("rubber layer", levels=3, elements=24.0):
         assert stated.value == pytest.approx(direct, abs=1e-6), stated.quantity
