@@ -19,6 +19,7 @@ m and n are those of McEwen (Johnson 1985, eq. 4.49-4.50); pressure and load eq.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +32,12 @@ _OfShear = Callable[[np.ndarray], np.ndarray]
 _OfSlope = Callable[[complex, np.ndarray], np.ndarray]
 
 _GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
+# By extreme: value of the shear `_shear`, slope of the value, and sign that the value has there.
+_EXTREMES = {
+    "tau1": (np.abs, lambda shear, slope: (np.conj(shear) * slope).real, 1.0),
+    "txz_max": (np.imag, lambda shear, slope: slope.imag, 1.0),
+    "txz_min": (lambda shear: -shear.imag, lambda shear, slope: -slope.imag, -1.0),
+}
 
 
 @dataclass(frozen=True)
@@ -129,17 +136,14 @@ def hertz_extremes(hertz: HertzContact, friction: float = 0.0) -> HertzExtremes:
     for the point of zero gradient fails."""
     p0, a = hertz.peak_pressure, hertz.half_width
 
-    def extremum(value: _OfShear, slope: _OfSlope, sign: float = 1.0) -> Extremum:
+    def extremum(value: _OfShear, slope: _OfSlope, sign: float) -> Extremum:
         peak, x, z = _highest(friction, value, slope)
         return Extremum(float(sign * p0 * peak), float(a * x), float(a * z))
 
-    return HertzExtremes(
-        tau1=extremum(np.abs, lambda shear, slope: (np.conj(shear) * slope).real),
-        txz_max=extremum(np.imag, lambda shear, slope: slope.imag),
-        txz_min=extremum(lambda shear: -shear.imag, lambda shear, slope: -slope.imag, sign=-1.0),
-    )
+    return HertzExtremes(**{name: extremum(*how) for name, how in _EXTREMES.items()})
 
 
+@cache
 def _highest(friction: float, value: _OfShear, slope: _OfSlope) -> tuple[float, float, float]:
     """Largest `value` of the shear, and x, z [a] of it: best of a grid, then zero gradient. With
     much friction the positive peak of txz moves down like mu, and the grid with it."""

@@ -182,6 +182,7 @@ def names_for(name: str) -> str:
     return f"the known {kind or 'solid'}s are {', '.join(listed)}"
 
 
+@cache
 def kinds_like(youngs_modulus: float, poissons_ratio: float) -> tuple[str, ...]:
     """The classes of solids that have about these constants: NEAR_MODULUS, relative, and
     NEAR_RATIO, absolute; several where they cannot be told apart, none for constants that no known

@@ -285,10 +285,12 @@ def _filtered(trace: Profile, table: Mapping, source: str, standard: bool) -> tu
     except ValueError as error:
         raise SceneError(f"{source}: profile.{field}: {error}") from error
     account = {"cutoff": cutoff, "short_cutoff": short}
+    if not standard:
+        return pressed, account
     try:
         cutoff = standard_cutoff(trace) if cutoff is None else cutoff
         short = short or standard_short_cutoff(trace, cutoff)
-        account["standard"] = standard_roughness(trace, cutoff, short) if standard else None
+        account["standard"] = standard_roughness(trace, cutoff, short)
     except ValueError as error:
         account["standard_why"] = str(error).partition(";")[0]
     return pressed, account

@@ -13,7 +13,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
@@ -49,8 +48,6 @@ page.attempted = lambda what, make: make()
 # Tests count and replace what is done in their own process; those of several processes say so.
 tasks.WORTH_A_FORK = tasks.WORTH_A_START = math.inf
 
-known_extremes = cache(hertz_extremes)  # many levels have one load
-
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
 
@@ -63,7 +60,7 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
 
 def stress_of(problem: Problem, modulus: float, window: Window, friction: float) -> StressResult:
     hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller.radius, modulus)
-    known = known_extremes(hertz, friction)
+    known = hertz_extremes(hertz, friction)
     txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
     field = hertz_stress(hertz, window.x, window.z[:, None], friction)
     deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)

@@ -48,7 +48,7 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
 
 def quick(name: str, effects: bool) -> Scene:
     """A shipped scene, with fewer points of the fields, which are not looked at here."""
-    return Scene.read(name).unchecked({"stress.points": (150, 60), "budget.effects": effects})
+    return Scene.read(name).unchecked({"stress.points": (60, 24), "budget.effects": effects})
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from comparisons.judging.model_error.study import early_lines
 from comparisons.judging.rule import values_of
 from comparisons.models.posing import problem_of
 from comparisons.scenes.files import read_toml
+from comparisons.scenes.surface import surface_of
 
 
 @pytest.mark.parametrize("name", finished_names())
@@ -34,7 +35,8 @@ def test_they_bound_every_point_of_a_finished_map(name):
             "comparisons.models.posing._touched",
             lambda posed, ends, *how: (0.5 * ends[0], 0.5 * ends[1]),
         ):
-            posed = problem_of(scene_with(base, groups))
+            scene = scene_with(base, groups)
+            posed = problem_of(scene, surface_of(scene, standard=False))
         errors = point["quantities"]
         peak = errors["peak_pressure"]["half_plane"]
         sizes = estimates(posed, Shown(peak, peak))

@@ -168,7 +168,6 @@ def stated(draw: random.Random, problem: Problem) -> Run:
 @pytest.fixture
 def typed(monkeypatch, tmp_path):
     """`typed(line)`: scene and models of a command, as it is typed after another one."""
-    monkeypatch.setattr(yielding, "hertz_extremes", cache(yielding.hertz_extremes))
     monkeypatch.setattr(cli, "get_command", cache(cli.get_command))
     monkeypatch.setattr("comparisons.models.analytic.unresolved_crest", lambda *_: 0.0)
     monkeypatch.setattr("comparisons.models.posing.SEARCH_HATS", 500)
