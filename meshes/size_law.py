@@ -98,11 +98,9 @@ def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
         vertices = own_vertices(spec)
         starts, ends = vertices[:1], vertices[-1:]
         edge = np.interp(x, vertices, local_edges(vertices))
-    left = np.searchsorted(starts, x, side="right") - 1
-    past = np.where(left >= 0, x - ends[np.maximum(left, 0)], np.inf)
-    right = np.minimum(left + 1, len(starts) - 1)
-    before = np.where(left + 1 < len(starts), starts[right] - x, np.inf)
-    along = np.maximum(0.0, np.minimum(past, before))
+    # the nearest of several intervals, told by the middles between them
+    left = 0 if len(starts) == 1 else np.searchsorted(0.5 * (ends[:-1] + starts[1:]), x)
+    along = np.maximum(0.0, np.maximum(starts[left] - x, x - ends[left]))
     size = edge + spec.growth * np.hypot(along, z)
     for x0, x1, z1, most in boxes(spec):
         aside, below = np.maximum(0.0, np.maximum(x0 - x, x - x1)), np.maximum(0.0, z - z1)
