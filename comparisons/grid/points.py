@@ -79,7 +79,7 @@ def points_of(
         at, scene, why, shape = dict(zip(axes, values, strict=True)), None, None, []
         try:
             scene = scene_at(at)
-            shape = scene_key(scene, surface_of(scene))
+            shape = scene_key(scene, surface_of(scene, standard=False))
         except InputError as error:
             scene, why = None, str(error)
         points.append(Point(at, asked, scene, why, key_of(program, shape, why)[:24]))

@@ -220,7 +220,7 @@ def why_not(point: Point) -> str | None:
     if scene is None or (scene.load.kind == "approach" and "finite_element" in point.asked):
         return point.why
     try:
-        posed(scene, surface_of(scene), point.asked)
+        posed(scene, surface_of(scene, standard=False), point.asked)
     except (ContactError, InputError, MeshError) as error:
         return str(error)
     return None

@@ -229,7 +229,8 @@ def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
     Where the half-plane's are known too, both solve it, and its model error is compared."""
     asked = Scene.of(scene.tables, Origin("verify", source=f"verify: {scene.name}"))
-    problem = problem_of(asked, surface_of(asked, scene.trace), levels=LEVELS)
+    surface = surface_of(asked, scene.trace, standard=False)
+    problem = problem_of(asked, surface, levels=LEVELS)
     (friction,) = asked.load.friction
     posed = unsolved(problem, make_plan(problem, MODELS if scene.half_plane else (model,)))
     solved = refined(posed, tasks := Tasks())
