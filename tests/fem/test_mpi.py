@@ -16,7 +16,7 @@ LAUNCHED = {"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "2", "PMI_RANK"
 
 
 def said(code: str, **variables: str) -> str:
-    done = python("-c", code, env={}, **variables)
+    done = python("-c", code, env={"HOME": str(Path.home())}, **variables)
     assert done.returncode == 0, done.stderr
     return done.stdout.strip()
 

@@ -129,7 +129,7 @@ def test_a_list_of_the_points_of_a_grid_is_a_map(tmp_path, order, delimiter):
 @needs_spreadsheets
 def test_numbers_of_which_a_line_is_asked_for_are_a_map(tmp_path):
     """Whatever language its header has; without a choice what is said names both ways."""
-    np.savetxt(tmp_path / "map.txt", SURFACE, header="Canal : Hauteur\nLargeur : 20 µm")
+    np.savetxt(tmp_path / "map.txt", SURFACE, header="Kanava: Korkeus\nLeveys: 20 µm")
     size = {"spacing": 0.5e-6, "height_scale": 1e-6}
     holds(tmp_path / "map.txt", SURFACE[3], **size, chosen=MapLine(row=3))
     message = refusal(tmp_path / "map.txt", ColumnsError)
