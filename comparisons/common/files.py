@@ -64,8 +64,10 @@ def check_writable(out: Path, files: tuple[str, ...] = OWN_FILES) -> None:
     place = next(path for path in (out, *out.parents) if os.path.lexists(path))
     if not place.is_dir():
         raise _cannot(out, f"{place} is not a folder; allowed is a folder")
-    if not os.access(place, os.W_OK, effective_ids=True):
-        raise _cannot(out, f"{place} is read-only; allowed is a folder to write in")
+    try:
+        tempfile.TemporaryFile(dir=place).close()  # which permissions alone do not tell
+    except OSError:
+        raise _cannot(out, f"{place} is read-only; allowed is a folder to write in") from None
     folders = {name.partition("/")[0] for name in files if "/" in name}
     taken = {name for name in folders if (out / name).is_file()}.union(_present(out, files))
     for name in sorted(taken - claimed(out, files) if taken else ()):

@@ -99,6 +99,12 @@ def test_a_folder_without_permission_is_refused(unprivileged):
         check_writable(unprivileged / "results")
 
 
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc to write in")
+def test_a_folder_that_takes_no_files_is_refused_whatever_its_permissions():
+    with pytest.raises(InputError, match=r"^/proc/results: cannot be written: /proc is read-only"):
+        check_writable(Path("/proc/results"))
+
+
 def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
     """Folder like a mount point, where a rename from outside would fail as well."""
     out = unprivileged / "results"
