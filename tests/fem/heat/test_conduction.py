@@ -85,7 +85,7 @@ def wave_error(cells, velocity, degree, radius=np.inf):
     return np.sqrt((area * (value - wave.temperature(place[..., 0], place[..., 1])) ** 2).sum())
 
 
-@pytest.mark.parametrize("velocity", [5.0, -40.0])
+@pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
 @pytest.mark.parametrize(("degree", "order"), [(1, 2.0), (2, 3.0), (3, 4.0)])
 def test_manufactured_solution_on_a_block(degree, order, velocity):
     coarse, fine = (wave_error(cells, velocity, degree) for cells in (16, 32))

@@ -64,7 +64,7 @@ def large():
     return build_block(BlockSpec(300.0, 300.0, np.array([[-1.3, 1.3]]), 0.1, 0.3, window))
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("friction", [0.0, 0.1, 0.3])
 def test_first_yield(large, friction):
     """Nothing flows at 2 % below the exact pressure; what flows 2 % above it is at the right point.
 
@@ -96,7 +96,7 @@ def test_below_first_yield_it_is_the_elastic_contact(small_block):
     assert not contact.state.equivalent.any()
 
 
-@pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.1)])
+@pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.0), (True, 0.1)])
 def test_what_is_condensed_changes_nothing(small_block, monkeypatch, elastic, friction):
     """An entire roller, without a start ahead, leads to the same by the same increments. What is
     left on the way changes little, the plastic strain of single points most."""
