@@ -223,7 +223,9 @@ def changes(material: Material) -> tuple[float, float]:
     return tuple((value / plain - 1.0) / strain for value, plain in pairs)
 
 
-@pytest.mark.parametrize("name", ["carbon steel", "aluminium alloy", "fused silica", "PMMA"])
+@pytest.mark.parametrize(
+    "name", ["carbon steel", "aluminium alloy", "tungsten", "niobium", "fused silica", "PMMA"]
+)
 def test_measured_laws_change_a_contact_as_their_constants_say(name):
     """Changes are of first order in the load; the rest is of the next order, 3 % of strain here."""
     material = solids()[name].material
