@@ -107,6 +107,7 @@ class Tasks:
     shared: object = None  # that `Here` gives to the tasks
     # preparations for what follows the tasks, while this process waits
     here: Sequence[Preparation] = ()
+    spare: list[Preparation] = field(default_factory=list)  # others, while a core is free, too
     # preparations of workers for their tasks, which may begin before there are any
     there: Sequence[Preparation] = ()
     _waiting: dict[str, _Task] = field(default_factory=dict)
@@ -280,6 +281,8 @@ class Tasks:
         ready = partial(next(iter(self._running)).ready, list(self._running))
         if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
             _prepare(self._left, lambda: ready(0.0))
+            if len(self._running) < self.at_once:
+                _prepare(self.spare, lambda: ready(0.0))
         said = ready(SILENT)
         if not said and (stage := self._tasks[next(iter(self._running.values()))].stage):
             self._tell(stage)

@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -68,12 +67,6 @@ class Picture:
 
 
 _COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", default=None)
-
-
-def load_matplotlib() -> None:
-    """Import what draws."""
-    for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
-        import_module(name)
 
 
 @contextmanager

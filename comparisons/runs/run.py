@@ -42,6 +42,7 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.arrays import traces_of
+from comparisons.output.page import LOADS
 from comparisons.runs.long import expected, told
 from comparisons.runs.refinement import announce, refined
 from comparisons.scenes.scene import Scene
@@ -51,7 +52,8 @@ from comparisons.studies.answers.answer import Answer
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Modules that say what was solved. Those that draw it come afterwards: a result waits for no page.
+# Modules that say what was solved. Those that draw it come where nothing waits for them: a result
+# waits for no page.
 ANSWER = ("rich.console", "rich.table", "comparisons.output.terminal")
 # What shapes levels, and the results of studies that are kept beside them.
 CODE = (*LEVEL_CODE, *JUDGING_CODE)
@@ -205,6 +207,7 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
 def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
     tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
+    tasks.spare = [] if out is None else [*LOADS]
     begin, kept = partial(_begin, scene, tasks), None if out is None else unfinished(out, "run")
 
     def say() -> None:

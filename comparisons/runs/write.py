@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -13,25 +12,22 @@ from comparisons.common.files import REPORT, published, write_whole
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
-from comparisons.drawing.style import load_matplotlib
 from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
+from comparisons.output.page import LOADS, PAGE
 from comparisons.output.result import FILE as RESULT
 from comparisons.output.result import result_of, write_result
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh
-
-PAGE = "comparisons.output.page.page"  # loaded while copies write the fields
 
 
 def write_files(outcome: Run, callback: ProgressCallback) -> bool:
     """Write the run's folder: everything but the report, whole and at once; then the report, which
     is drawn when nothing that goes wrong can cost a result. Whether it could be."""
     callback(Step("writing results", 0.0))
-    beside = partial(import_module, PAGE), load_matplotlib
-    with published(outcome.directory) as folder, tasks_of_copies(outcome, beside) as tasks:
+    with published(outcome.directory) as folder, tasks_of_copies(outcome, LOADS) as tasks:
         levels = levels_by_folder(outcome)
         meshed = {name: any(one.mesh for one in of.values()) for name, of in levels.items()}
         first, *others = sorted(levels, key=lambda name: not meshed[name])  # longest first

@@ -5,11 +5,9 @@ import hashlib
 import re
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from jinja2 import Environment
-    from markupsafe import Markup
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
+from markupsafe import Markup, escape
 
 FOLDER = Path(__file__).parent / "templates"
 UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
@@ -29,10 +27,7 @@ def rendered(template: str | Path, **values: object) -> str:
 
 
 @cache
-def _environment(folder: Path) -> "Environment":
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
-    from markupsafe import Markup
-
+def _environment(folder: Path) -> Environment:
     made = Environment(
         loader=FileSystemLoader([folder, FOLDER]),
         autoescape=select_autoescape(("html.j2",)),
@@ -59,10 +54,8 @@ def tight(text: str) -> str:
     return BAR.sub("|\u2060", UNIT.sub("\u00a0", text))
 
 
-def set_off(text: str) -> "Markup":
+def set_off(text: str) -> Markup:
     """The text with *words* between asterisks in italics."""
-    from markupsafe import Markup, escape
-
     return Markup(STARRED.sub(r"<i>\1</i>", str(escape(text))))
 
 
@@ -71,10 +64,8 @@ def slug(text: str) -> str:
     return "-".join(re.findall(r"\w+", text.lower())[:WORDS])
 
 
-def anchored(text: str) -> "Markup":
+def anchored(text: str) -> Markup:
     """HTML whose headings of the third order have ids by their words, each another one."""
-    from markupsafe import Markup, escape
-
     known: list[str] = []
 
     def with_id(heading: re.Match[str]) -> str:
@@ -86,10 +77,8 @@ def anchored(text: str) -> "Markup":
     return Markup(HEADING.sub(with_id, text))
 
 
-def inline(name: str) -> "tuple[Markup, str]":
+def inline(name: str) -> tuple[Markup, str]:
     """A script of this folder, and a Content-Security-Policy that allows no other script."""
-    from markupsafe import Markup
-
     text = (FOLDER / name).read_text(encoding="utf-8")
     seal = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
     return Markup(text), f"{STYLES}; script-src 'sha256-{seal}'"

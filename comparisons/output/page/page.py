@@ -20,12 +20,13 @@ from comparisons.drawing.blocks import (
     Pictures,
     attempted,
 )
-from comparisons.drawing.style import drawing, load_matplotlib
+from comparisons.drawing.style import drawing
 from comparisons.figures.figure import grouped
 from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
+from comparisons.output.page import LOADS
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
@@ -120,7 +121,8 @@ def drawn_of(run: Run) -> list[str]:
 def draw(run: Run) -> dict[str, object]:
     """Results of PICTURES, drawn side by side."""
     names = drawn_of(run)
-    load_matplotlib()  # with its settings, once for all copies
+    for load in LOADS:  # once for all copies
+        load()
     with drawing(), tasks_of_copies(run) as tasks:
         for name in names:
             tasks.add(name, _drawn, name)

@@ -144,6 +144,14 @@ class TestOrder:
         assert [beside.result(name) for name in "ab"] == ["a", "b"]
         assert max(running) == 1
 
+    @pytest.mark.parametrize(("places", "loaded"), [(1, []), (2, ["what draws"])])
+    def test_what_is_wanted_later_is_loaded_while_a_core_is_free(self, places, loaded):
+        found, spare = [], ["what draws"]
+        with Tasks(ProcessWorker, places, spare=[lambda: found.extend(spare)], **LATE) as tasks:
+            tasks.add("home", home)
+            tasks.result("home")
+        assert found == loaded
+
 
 class TestProcesses:
     def test_one_that_works_for_another_begins_none(self, one, monkeypatch):
