@@ -66,3 +66,8 @@ class Extremum:
     value: float
     x: float
     z: float
+
+    @classmethod
+    def highest(cls, values: np.ndarray) -> "Extremum":
+        """The largest of values with their x and z (3, k)."""
+        return cls(*map(float, values[:, np.argmax(values[0])]))

@@ -27,7 +27,7 @@ from scipy.fft import dst
 
 from analytic.contact.smooth_pressure import contact_ends, curve_between, nodal_values
 from analytic.stress.elements import FrictionStress
-from analytic.stress.potential import stresses
+from analytic.stress.potential import power_series, stresses
 from analytic.stress.tree import LoadedLine, tree_stress
 from analytic.stress_state import StressState
 
@@ -59,10 +59,7 @@ class SmoothPatch:
         right, left = ((x - end + 1j * z) / self.half for end in self.ends[::-1])
         s = np.sqrt(right) * np.sqrt(left)
         zeta = 1.0 / (0.5 * (right + left) + s)
-        value, slope = np.zeros_like(zeta), np.zeros_like(zeta)  # sum c_k zeta^k, its derivative
-        for coefficient in self.series[::-1]:
-            slope = slope * zeta + value
-            value = value * zeta + coefficient
+        value, slope = power_series(self.series, zeta)
         # d zeta / dw = -zeta / s, which the depth outweighs at the ends
         over = z / self.half / np.where(s == 0.0, 1.0, s)
         return stresses(zeta * value, -zeta * over * (value + zeta * slope))
@@ -90,11 +87,11 @@ class EndStress:
                 change[:, near] += patch.parts(*at) - tree_stress(hats, *at)
         return change
 
-    def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:
+    def at(self, friction: ArrayLike) -> Callable[[ArrayLike, ArrayLike], StressState]:
         """Stresses [Pa] at x, z [m] under p and q = friction * p; goes through pickle."""
         return partial(self.stress, friction)
 
-    def stress(self, friction: float, x: ArrayLike, z: ArrayLike) -> StressState:
+    def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
         """Stresses [Pa] at x, z [m] under p and q = friction * p."""
         return FrictionStress.of(self.parts(x, z)).at(friction)
 

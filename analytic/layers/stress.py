@@ -17,6 +17,7 @@ is taken on panels.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic.layers.kernel import finest_scale, wave_panels
 from analytic.layers.layered import LayeredBody, added_stress
@@ -72,14 +73,16 @@ class AddedStress:
             added[:, row] = (waves @ phase[:count]).real
         return added
 
-    def at(self, friction: float, x: np.ndarray, z: np.ndarray, below: bool = False) -> StressState:
+    def at(
+        self, friction: ArrayLike, x: np.ndarray, z: np.ndarray, below: bool = False
+    ) -> StressState:
         """Stresses under q = friction * p, at x, z [m] of any one shape."""
         flat = x.ravel() - self.middle, z.ravel()
         k = np.broadcast_to(self.wavenumber, (len(flat[0]), len(self.wavenumber)))
         depth = np.broadcast_to(flat[1][:, None], k.shape)
         waves = _rows(self.body, k, depth, below) * (self.load * np.exp(1j * k * flat[0][:, None]))
-        parts = waves.real.sum(axis=-1)
-        return StressState(*(parts[:3] + friction * parts[3:]).reshape(3, *x.shape))
+        parts = waves.real.sum(axis=-1).reshape(6, *x.shape)
+        return StressState(*(parts[:3] + friction * parts[3:]))
 
 
 def _transform(k: np.ndarray, first: float, pitch: float, values: np.ndarray) -> np.ndarray:

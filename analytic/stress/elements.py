@@ -14,6 +14,7 @@ are right to rounding of the largest of the four.
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
 from analytic.numerics import angle_minus_sine
@@ -48,9 +49,9 @@ class FrictionStress:
         """Stresses under q = p in +x alone."""
         return StressState(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
 
-    def at(self, friction: float) -> StressState:
-        """Stresses under p and q = friction * p together."""
-        state = self.normal.plus(friction, self.traction) if friction != 0.0 else self.normal
+    def at(self, friction: ArrayLike) -> StressState:
+        """Stresses under p and q = friction * p, by one friction or by that of each point."""
+        state = self.normal.plus(friction, self.traction) if np.any(friction) else self.normal
         return replace(state, sx=state.sx + self.along) if self.along else state
 
 

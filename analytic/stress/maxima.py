@@ -1,14 +1,13 @@
 """Largest stresses of a field, and where they stand between the points of its grid."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
-from scipy.ndimage import maximum_filter, minimum_filter
 
 from analytic.stress.field import StressField
-from analytic.stress.points import stress_at
+from analytic.stress.points import friction_stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
 
@@ -38,21 +37,22 @@ class StressMaxima:
 def stress_maxima(
     x_nodes: np.ndarray,
     pressure: np.ndarray,
-    friction: float,
-    field: StressField,
+    fields: Mapping[float, StressField],
     poissons_ratio: float,
     element: Element = "hat",
     *,
-    beside: Callable[[np.ndarray, np.ndarray], StressState] | None = None,
+    beside: Callable[[np.ndarray, np.ndarray, np.ndarray], StressState] | None = None,
     cells: Sequence[float] = (),
-) -> StressMaxima:
-    """The three maxima [Pa] inside the field's window, under its loads, given as to `stress_at`.
+) -> dict[float, StressMaxima]:
+    """By friction coefficient the three maxima [Pa] inside the window of the fields, whose points
+    are the same, under their loads, given as to `stress_at`.
 
-    `beside` gives further stresses [Pa] at x, z [m], which the field has already.
+    `beside` gives further stresses [Pa] by friction coefficient (k, 1), x and z (k, n) [m], which
+    the fields have already.
     `cells` (k,) [m] are where one cell of x ends and the next begins, ascending. Where the highest
     point of one is below NEAR of the highest of all, that is taken; without a point: 0, no x.
 
-    The field's highest local maxima, up to STARTS of them, are each followed off the grid by
+    A field's highest local maxima, up to STARTS of them, are each followed off the grid by
     `stress_at`, no further than the window, and the highest wins: the position is good to 1e-5 of a
     cell where the quantity is smooth, and the value never below the field's own largest. A field
     coarser than the asperities can miss peaks that it does not show.
@@ -62,59 +62,70 @@ def stress_maxima(
         lambda stress: np.abs(stress.txz),
         lambda stress: stress.von_mises(poissons_ratio),
     )
-    rows, columns, owner = [], [], []  # an owner is a quantity in a cell
-    cell, count = np.searchsorted(cells, field.x), len(cells) + 1
-    largest = np.full((len(quantities), 3, count), np.nan)
+    searches = list(product(fields, quantities))
+    grid, count = next(iter(fields.values())), len(cells) + 1
+    largest = np.full((len(searches), 3, count), np.nan)
     largest[:, 0] = 0.0
-    edges = [0, *np.searchsorted(field.x, cells, side="right"), len(field.x)]
-    for index, quantity in enumerate(quantities):
-        values = quantity(field.stress)
+    rows, columns, owners, bounds = [], [], [], []  # an owner is a search in a cell
+    for index, (friction, quantity) in enumerate(searches):
+        values = quantity(fields[friction].stress)
         row, column = _local_maxima(values)
-        highest = values.max()
-        for k, (start, stop) in enumerate(pairwise(edges)) if count > 1 else ():
+        inner = cells if quantity in quantities[:2] else ()
+        cell, highest = np.searchsorted(inner, grid.x), values.max()
+        edges = [0, *np.searchsorted(grid.x, inner, side="right"), len(grid.x)]
+        for k, (start, stop) in enumerate(pairwise(edges)):
             if start == stop:
                 continue
             i, j = np.unravel_index(np.argmax(values[:, start:stop]), (len(values), stop - start))
             j += start
-            largest[index, :, k] = values[i, j], field.x[j], field.z[i]
+            largest[index, :, k] = values[i, j], grid.x[j], grid.z[i]
             if values[i, j] >= NEAR * highest and not np.any(cell[column] == k):
                 row, column = np.append(row, i), np.append(column, j)
         rows.append(row)
         columns.append(column)
-        owner.append(count * index + cell[column])
-    rows, columns, owner = (np.concatenate(parts) for parts in (rows, columns, owner))
+        owners.append(count * index + cell[column])
+        ends = np.clip([-np.inf, *inner, np.inf], grid.x[0], grid.x[-1])
+        bounds.append(np.column_stack([ends[:-1], ends[1:]])[cell[column]])
+    rows, columns, owners, bounds = map(np.concatenate, (rows, columns, owners, bounds))
+    of_search = np.array([friction for friction, _ in searches])
 
     def evaluate(place: np.ndarray, owner: np.ndarray) -> np.ndarray:
         """The quantity of each owner (k,) at its points (k, 9, 2)."""
         x, z = place[..., 0], place[..., 1]
-        stress = stress_at(x_nodes, pressure, friction, x, z, element)
-        stress = stress if beside is None else stress.plus(1.0, beside(x, z))
+        friction = of_search[owner // count, None]
+        stress = friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
+        stress = stress if beside is None else stress.plus(1.0, beside(friction, x, z))
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):
-            mine = owner // count == index
-            value[mine] = quantity(StressState(stress.sx[mine], stress.sz[mine], stress.txz[mine]))
+            mine = owner // count % len(quantities) == index
+            value[mine] = quantity(StressState(*stress.parts[:, mine]))
         return value
 
-    ends = np.clip([field.x[0], *cells, field.x[-1]], field.x[0], field.x[-1])
-    bounds = np.column_stack([ends[:-1], ends[1:]])[owner % count]
-    top, place = _climb(evaluate, field, rows, columns, owner, bounds)
-    for one in np.unique(owner):
-        mine = np.flatnonzero(owner == one)
+    top, place = _climb(evaluate, grid, rows, columns, owners, bounds)
+    for one in np.unique(owners):
+        mine = np.flatnonzero(owners == one)
         best = mine[np.argmax(top[mine])]
         largest[one // count, :, one % count] = top[best], *place[best]
-    best = (Extremum(*map(float, by_cell[:, np.argmax(by_cell[0])])) for by_cell in largest)
-    return StressMaxima(*best, dict(zip(("tau1", "txz_abs"), largest, strict=False)))
+    by_friction = largest.reshape(len(fields), len(quantities), 3, count)
+    return {
+        friction: StressMaxima(*map(Extremum.highest, own), {"tau1": own[0], "txz_abs": own[1]})
+        for friction, own in zip(fields, by_friction, strict=True)
+    }
 
 
 def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the highest points that no neighbour exceeds, highest first. A point is
-    passed over if its peak cannot reach the highest value: between the points it rises at most by a
-    quarter of the fall to its lowest neighbour, twice what a parabola along that line would."""
-    highest = values == maximum_filter(values, size=3, mode="nearest")
-    fall = values - minimum_filter(values, size=3, mode="nearest")
-    place = np.flatnonzero(highest & (values + 0.25 * fall >= values.max()))
-    place = place[np.argsort(-values.ravel()[place], kind="stable")[:STARTS]]
-    return np.unravel_index(place, values.shape)
+    """Rows and columns of the highest points that no neighbour exceeds, highest first, of values
+    that are nowhere below 0. A point is passed over if its peak cannot reach the highest value:
+    between the points it rises at most by a quarter of the fall to its lowest neighbour, twice what
+    a parabola along that line would."""
+    highest, rise = values.max(), 0.25
+    row, column = np.nonzero((1.0 + rise) * values >= highest)
+    around = np.pad(values, 1, mode="edge")[row + 1 + _STENCIL[:, :1], column + 1 + _STENCIL[:, 1:]]
+    value = values[row, column]
+    reached = value + rise * (value - around.min(axis=0)) >= highest
+    place = np.flatnonzero(reached & (value == around.max(axis=0)))
+    place = place[np.argsort(-value[place], kind="stable")[:STARTS]]
+    return row[place], column[place]
 
 
 def _climb(
@@ -140,6 +151,7 @@ def _climb(
     u, v = _STENCIL.T
     fit = np.linalg.pinv(np.column_stack([np.ones(9), u, v, u**2, u * v, v**2]))
     going, left = np.arange(len(centre)), np.full(len(centre), _SPACINGS)
+    leader = np.full(owner.max() + 1, -np.inf)
     for _ in range(_MOST_ROUNDS):
         at, h, floor, roof = centre[going], step[going], low[going], high[going]
         # a stencil across the window's side is moved in as a whole
@@ -162,8 +174,8 @@ def _climb(
         walks = better & (np.abs(centre[going] - middle) > h).any(axis=1)
         step[going[~walks]] *= _SHRINKAGE
         left[going[~walks]] -= 1
-        leader = np.array([top[owner == mine].max() for mine in owner[going]])
-        hopeful = top[going] + 0.25 * np.ptp(value, axis=1) >= leader
+        np.maximum.at(leader, owner, top)
+        hopeful = top[going] + 0.25 * np.ptp(value, axis=1) >= leader[owner[going]]
         going = going[hopeful & (left[going] > 0)]
         if not len(going):
             break

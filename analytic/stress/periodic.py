@@ -119,9 +119,9 @@ class PeriodicRest:
         """See `ImageStress`; all but `along`."""
         return self.ends(x, z) + self.images.parts(x, z)
 
-    def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:
+    def at(self, friction: ArrayLike) -> Callable[[ArrayLike, ArrayLike], StressState]:
         """Stresses [Pa] at x, z [m] under p and q = friction * p."""
         return partial(self.stress, friction)
 
-    def stress(self, friction: float, x: ArrayLike, z: ArrayLike) -> StressState:
+    def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
         return FrictionStress.of(self.parts(x, z), self.along).at(friction)

@@ -8,9 +8,10 @@ is a convolution, and its stresses are those of a half-plane and what the base a
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import reduce
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.deformed_surface import DeformedContact
@@ -22,10 +23,10 @@ from analytic.material import Material
 from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.periodic import PeriodicRest
-from analytic.stress_state import StressState
+from analytic.stress_state import Extremum, StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
-from comparisons.models.level import ExpectedCost, Level, StressResult, highest
+from comparisons.models.level import ExpectedCost, Level, StressResult
 from comparisons.models.operators import (
     body_operator,
     layered_body,
@@ -127,23 +128,24 @@ class _Side:
     rest: EndStress | PeriodicRest  # what hats leave out
     searched: Window  # from which extremes are searched
 
-    def beside(self, friction: float, x: np.ndarray, z: np.ndarray) -> StressState:
+    def beside(self, friction: ArrayLike, x: np.ndarray, z: np.ndarray) -> StressState:
         """Stresses beside those of the half-plane's hats."""
         rest = self.rest.at(friction)(x, z)
         if self.added is None:
             return rest
         return rest.plus(1.0, self.added.at(friction, x, z, self.below))
 
-    def fields(self, level: Level, frictions: tuple[float, ...]) -> list[StressField]:
-        """One a friction coefficient, where extremes are searched."""
+    def fields(self, level: Level, frictions: tuple[float, ...]) -> dict[float, StressField]:
+        """By friction coefficient, where extremes are searched."""
         made = field_on(level, self.searched, self.rest)
-        fields = [made.at(friction) for friction in frictions]
+        fields = {friction: made.at(friction) for friction in frictions}
         if self.added is None:
             return fields
         parts = self.added.field(made.x, made.z, self.below)
-        added = (StressState(*(parts[:3] + friction * parts[3:])) for friction in frictions)
-        both = (field.stress.plus(1.0, more) for field, more in zip(fields, added, strict=True))
-        return [StressField(made.x, made.z, stress) for stress in both]
+        for friction, field in fields.items():
+            added = StressState(*(parts[:3] + friction * parts[3:]))
+            fields[friction] = StressField(made.x, made.z, field.stress.plus(1.0, added))
+        return fields
 
 
 def _stresses(
@@ -152,28 +154,27 @@ def _stresses(
     """Extremes off the grid, of both sides of an interface, and for `fields` all on the window."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
     sides, frictions = _sides(problem, effects, level), problem.scene.load.friction
-    searched = zip(*(side.fields(level, frictions) for side in sides), strict=True)
+    largest = [
+        stress_maxima(
+            x,
+            pressure,
+            side.fields(level, frictions),
+            side.material.poissons_ratio,
+            beside=side.beside,
+            cells=problem.asperities,
+        )
+        for side in sides
+    ]
     shown = field_on(level, problem.window, sides[0].rest) if fields else None
-    for friction, by_side in zip(frictions, searched, strict=True):
-        largest = [
-            stress_maxima(
-                x,
-                pressure,
-                friction,
-                field,
-                side.material.poissons_ratio,
-                beside=partial(side.beside, friction),
-                cells=problem.asperities,
-            )
-            for side, field in zip(sides, by_side, strict=True)
-        ]
+    for friction in frictions:
+        of_sides = [by_friction[friction] for by_friction in largest]
         maxima = {
             # of each asperity (3, k) the side with the larger value
-            name: reduce(lambda a, b: np.where(b[0] > a[0], b, a), (s.cells[key] for s in largest))
+            name: reduce(lambda a, b: np.where(b[0] > a[0], b, a), (s.cells[key] for s in of_sides))
             for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
         }
-        extremes = {name: highest(cells) for name, cells in maxima.items()}
-        extremes["von_mises"] = max((one.von_mises for one in largest), key=lambda e: e.value)
+        extremes = {name: Extremum.highest(cells) for name, cells in maxima.items()}
+        extremes["von_mises"] = max((one.von_mises for one in of_sides), key=lambda e: e.value)
         field = None if shown is None else shown.at(friction).stress
         yield StressResult(friction, extremes, maxima, field)
 

@@ -85,11 +85,6 @@ class StressResult:
         return None if self.field is None else self.field.tau1
 
 
-def highest(maxima: np.ndarray) -> Extremum:
-    """The largest of values with their x and z (3, k)."""
-    return Extremum(*map(float, maxima[:, np.argmax(maxima[0])]))
-
-
 @dataclass(frozen=True)
 class MeshField:
     """A finite-element level's own mesh, with stresses and displacements, one set a friction."""

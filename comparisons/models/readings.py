@@ -12,7 +12,7 @@ from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress.elements import FrictionStress
-from analytic.stress.field import FrictionField, StressField, friction_field
+from analytic.stress.field import FrictionField, friction_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
 from analytic.stress.points import friction_stress_at
@@ -95,8 +95,9 @@ def largest_tau1(
     traction, with the stresses `beside` them at x and z [m]."""
     field = hats_field(grid, pressure, search_window(problem)).at(friction)
     stress = field.stress.plus(1.0, beside(*np.meshgrid(field.x, field.z)))
-    field, nu = StressField(field.x, field.z, stress), problem.scene.body.poissons_ratio
-    return stress_maxima(grid.x, pressure, friction, field, nu, beside=beside).tau1
+    fields, nu = {friction: replace(field, stress=stress)}, problem.scene.body.poissons_ratio
+    further = {"beside": lambda _, x, z: beside(x, z)}
+    return stress_maxima(grid.x, pressure, fields, nu, **further)[friction].tau1
 
 
 def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> FrictionField:

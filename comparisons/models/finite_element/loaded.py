@@ -12,10 +12,10 @@ import numpy as np
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, assessed
-from analytic.stress_state import von_mises
+from analytic.stress_state import Extremum, von_mises
 from comparisons.models.finite_element.contact import SmallStrainContact
 from comparisons.models.finite_element.roller import is_disc, roller_of
-from comparisons.models.level import STRAIN, MeshField, RecoverableField, StressResult, highest
+from comparisons.models.level import STRAIN, MeshField, RecoverableField, StressResult
 from comparisons.models.operators import patches_of
 from comparisons.models.problem import mean_height
 from comparisons.models.readings import ends_of
@@ -276,7 +276,7 @@ def stresses_of(
             name: _borne(pressed, stresses, maxima(body, stresses, of, *searched))
             for name, of in shears.items()
         }
-        extremes = {name: highest(most) for name, most in highest_places.items()}
+        extremes = {name: Extremum.highest(most) for name, most in highest_places.items()}
         if linear:
             where = bounds, samples
             mises = maximum(body, stresses, lambda s: s.von_mises(s.poissons_ratio), *where)

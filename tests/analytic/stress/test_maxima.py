@@ -11,8 +11,12 @@ from analytic.stress.points import stress_at
 UNIT = HertzContact(1.0, 1.0, np.pi / 2.0, 1.0, 2.0)
 
 
+def maxima_of(x, pressure, friction, field, element="hat", cells=()):
+    return stress_maxima(x, pressure, {friction: field}, 0.3, element, cells=cells)[friction]
+
+
 def largest_tau1(x, pressure, friction, field):
-    return stress_maxima(x, pressure, friction, field, 0.3).tau1
+    return maxima_of(x, pressure, friction, field).tau1
 
 
 def elements(count: int, element: str) -> tuple[np.ndarray, np.ndarray]:
@@ -52,7 +56,7 @@ def test_maxima_of_the_smooth_contact_with_order_two(element, friction):
         x, pressure = elements(count, element)
         levels = np.linspace(0.0, 1.5, 31)
         field = friction_field(x, pressure, (-1.5, 1.5), levels, 1, element).at(friction)
-        maxima = stress_maxima(x, pressure, friction, field, 0.3, element)
+        maxima = maxima_of(x, pressure, friction, field, element)
         errors["tau1"].append(maxima.tau1.value - exact.tau1.value)
         errors["txz"].append(maxima.txz_abs.value + exact.txz_min.value)
         errors["place"].append(np.hypot(maxima.tau1.x - exact.tau1.x, maxima.tau1.z - exact.tau1.z))
@@ -139,7 +143,7 @@ def test_flat_ridges_under_little_friction_are_climbed_to_their_top(surface, fri
     """
     x, pressure = smooth_wavy_rough(surface)
     field = friction_field(x, pressure, (x[0], x[-1]), graded_depths(1.5, 24, 0.01)).at(friction)
-    maxima = stress_maxima(x, pressure, friction, field, 0.3)
+    maxima = maxima_of(x, pressure, friction, field)
     for extremum, quantity in (
         (maxima.tau1, lambda stress: stress.tau1),
         (maxima.txz_abs, lambda stress: np.abs(stress.txz)),
@@ -190,15 +194,15 @@ def test_each_cell_of_x_has_its_own_maxima():
     levels, ends = np.linspace(0.0, 1.5, 31), (-60.0 * pitch, 70.0 * pitch, 390.0 * pitch)
     window = nodes[0] + 60.0 * pitch, 330.0 * pitch
     field = friction_field(nodes, loads, window, levels, 1).at(0.1)
-    maxima = stress_maxima(nodes, loads, 0.1, field, 0.3, cells=ends)
+    maxima = maxima_of(nodes, loads, 0.1, field, cells=ends)
     for k, part in ((0, (window[0], ends[0])), (2, (ends[1], window[1]))):
         one = friction_field(nodes, loads, part, levels, 1).at(0.1)
-        searched = stress_maxima(nodes, loads, 0.1, one, 0.3)
+        searched = maxima_of(nodes, loads, 0.1, one)
         for name, single in (("tau1", searched.tau1), ("txz_abs", searched.txz_abs)):
             assert maxima.cells[name][:, k] == pytest.approx((single.value, single.x, single.z))
     cells = maxima.cells["tau1"]
     assert cells[0].argmax() == 2 and cells[0, 1] < 0.5 * cells[0, 2] == 0.5 * maxima.tau1.value
     assert cells[0, 3] == 0.0 and np.isnan(cells[1:, 3]).all()  # beyond the window
-    alone = stress_maxima(nodes, loads, 0.1, field, 0.3)
+    alone = maxima_of(nodes, loads, 0.1, field)
     best, top = ((tau1.value, tau1.x, tau1.z) for tau1 in (alone.tau1, maxima.tau1))
     assert best == pytest.approx(top, rel=1e-9) and alone.cells["tau1"].shape == (3, 1)
