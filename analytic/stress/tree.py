@@ -123,16 +123,17 @@ def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
     column = inside(box + away[:, None], sources.shape[1] - 1)
     if np.all(column == sources.shape[1] - 1):
         return np.zeros((ORDER, len(box)))
-    return matrix @ sources.T[column].transpose(0, 2, 1).reshape(-1, len(box))
+    seen = sources[: _OUTER_ORDERS[-1]].T[column]
+    return matrix @ seen.transpose(0, 2, 1).reshape(-1, len(box))
 
 
 @cache
 def _far_boxes(right: int) -> tuple[np.ndarray, np.ndarray]:
     """Distances [boxes] to the halves of the parent's near boxes that are not near themselves. And
-    the matrix (ORDER, distances * ORDER) that takes their outer coefficients to inner ones."""
+    the matrix (ORDER, distances * orders) that takes their outer coefficients to inner ones."""
     away = np.arange(-2 * NEIGHBOURS - right, 2 * NEIGHBOURS + 2 - right)
     away = away[np.abs(away) > NEIGHBOURS]
-    return away, np.hstack([outer_to_inner(int(boxes)) for boxes in away])
+    return away, np.hstack([outer_to_inner(int(boxes))[:, : _OUTER_ORDERS[-1]] for boxes in away])
 
 
 def inside(box: np.ndarray, count: int) -> np.ndarray:
@@ -143,13 +144,13 @@ def inside(box: np.ndarray, count: int) -> np.ndarray:
 def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """sum M_k / u^(k+1) over the near boxes, and its derivative in u."""
     total, change = np.zeros_like(u), np.zeros_like(u)
-    for away in range(-NEIGHBOURS, NEIGHBOURS + 1):
-        column = inside(box + away, tree.outer.shape[1] - 1)
-        v = 1.0 / (u - 2.0 * away)
-        rows = tree.outer[_OUTER_ORDERS[abs(away)] - 1 :: -1]
-        value, slope = polynomial((row[column] for row in rows), v)
-        total += v * value
-        change -= v * v * (value + v * slope)
+    for away, orders in enumerate(_OUTER_ORDERS):
+        sides = np.unique([-away, away])[:, None]
+        column = inside(box + sides, tree.outer.shape[1] - 1)
+        v = 1.0 / (u - 2.0 * sides)
+        value, slope = polynomial((row[column] for row in tree.outer[orders - 1 :: -1]), v)
+        total += np.sum(v * value, axis=0)
+        change -= np.sum(v * v * (value + v * slope), axis=0)
     return total, change
 
 
