@@ -16,7 +16,7 @@ force and moment of the hats are its own: within 0.02 pitches for Hertz's contac
 pitches. There the stress at the surface under traction is right to 0.2 % of the largest in place of
 4 % (20 pitches to a half-width) or to 0.06 % in place of 2 % (80)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.fft import dst
 
-from analytic.contact.smooth_pressure import contact_ends, curve_between, nodal_values
+from analytic.contact.smooth_pressure import contact_ends, curves_between, nodal_values
 from analytic.stress.elements import FrictionStress
 from analytic.stress.potential import power_series, stresses
 from analytic.stress.tree import LoadedLine, tree_stress
@@ -103,44 +103,57 @@ def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> En
     pitch = x_nodes[1] - x_nodes[0]
     hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
     nodal = nodal_values(hats, pressure)
-    patches = (
-        _balanced(int(first), int(last), ends, x_nodes, pressure, nodal)
-        for (first, last), ends in zip(*contact_ends(hats, pressure, gap), strict=True)
-        if last - first + 1 >= FEWEST
-    )
-    return EndStress(x_nodes, pressure, tuple(filter(None, patches)))
+    touching, ends = contact_ends(hats, pressure, gap)
+    wide = np.ptp(touching, axis=1) + 1 >= FEWEST
+    how = x_nodes, pressure, nodal
+    patches = _balanced(touching[wide], ends[wide], *how) if wide.any() else ()
+    return EndStress(x_nodes, pressure, tuple(patches))
 
 
 def _balanced(
-    first: int,
-    last: int,
+    touching: np.ndarray,
     ends: np.ndarray,
     x_nodes: np.ndarray,
     pressure: np.ndarray,
     nodal: np.ndarray,
-) -> SmoothPatch | None:
-    """Curve with ends, near these, at which it has the hats' force and moment; None if none has."""
-    count, pitch = last - first + 1, x_nodes[1] - x_nodes[0]
-    held, whole = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
-    places, values = x_nodes[held], nodal[held]
-    middle = 0.5 * (x_nodes[first] + x_nodes[last])
-    force = pitch * pressure[whole].sum()
-    moment = pitch * (pressure[whole] * (x_nodes[whole] - middle)).sum()
-    terms = min(4 * (count + 1), TERMS)
-    angle = np.pi * np.arange(1, terms + 1) / (terms + 1)
+) -> Iterator[SmoothPatch]:
+    """Curves on patches from node to node (k, 2), with ends, near these (k, 2), at which each has
+    the hats' force and moment; of patches with such a curve."""
+    (first, last), pitch = touching.T, x_nodes[1] - x_nodes[0]
+    count, middle = last - first + 1, 0.5 * (x_nodes[first] + x_nodes[last])
+    patch, node = _runs(first, count)
+    force = pitch * np.bincount(patch, pressure[node])
+    moment = pitch * np.bincount(patch, pressure[node] * (x_nodes[node] - middle[patch]))
+    held_by, held = _runs(first + DISTURBED, count - 2 * DISTURBED)
+    terms = np.minimum(4 * (count + 1), TERMS)
+    patch, order = _runs(np.ones_like(terms), terms)
+    angle = np.pi * order / (terms + 1)[patch]
+    across, sine, sine_of_two = np.cos(angle), np.sin(angle), np.sin(2.0 * angle)
     # an end that moves out takes two thirds of the value at the next held node with it
-    grows = 2.0 / 3.0 * np.array([-values[0], values[-1]])
+    grows = 2.0 / 3.0 * np.column_stack([-nodal[first + DISTURBED], nodal[last - DISTURBED]])
     for _ in range(ROUNDS):
         used = ends  # never as far in as a held node: these are two pitches or more inside
-        curve, half = curve_between(tuple(ends), places, values), 0.5 * (ends[1] - ends[0])
-        series = dst(curve(ends.mean() + half * np.cos(angle)), type=1) / (terms + 1)
-        own_force = 0.5 * np.pi * half * series[0]
-        own_moment = own_force * (ends.mean() - middle) + 0.25 * np.pi * half**2 * series[1]
-        left = np.array([force - own_force, moment - own_moment])
-        moved = np.linalg.solve(np.array([grows, grows * (ends - middle)]), left)
+        curve = curves_between(ends, x_nodes[held], nodal[held], held_by)
+        half, centre = 0.5 * np.ptp(ends, axis=1), ends.mean(axis=1)
+        values = curve(centre[patch] + half[patch] * across, patch)
+        own_force = np.pi * half / (terms + 1) * np.bincount(patch, values * sine)
+        own_moment = 0.5 * np.pi * half**2 / (terms + 1) * np.bincount(patch, values * sine_of_two)
+        own_moment += own_force * (centre - middle)
+        left = np.stack([force - own_force, moment - own_moment], axis=-1)
+        matrix = np.stack([grows, grows * (ends - middle[:, None])], axis=1)
+        moved = np.linalg.solve(matrix, left[..., None])[..., 0]
         ends = ends + np.clip(moved, -FARTHEST * pitch, FARTHEST * pitch)
     inner = np.arange(DISTURBED - len(UNLIKE), DISTURBED)
-    inner = np.array([first + inner, last - inner])
-    if np.any(np.abs(curve(x_nodes[inner]) - nodal[inner]) > UNLIKE * nodal[inner]):
-        return None
-    return SmoothPatch(first, last, (float(used[0]), float(used[1])), series)
+    inner = np.stack([first[:, None] + inner, last[:, None] - inner], axis=1)
+    apart = np.abs(curve(x_nodes[inner], np.arange(len(first))[:, None, None]) - nodal[inner])
+    alike = np.all(apart <= UNLIKE * nodal[inner], axis=(1, 2))
+    for k in np.flatnonzero(alike):
+        series = dst(values[patch == k], type=1) / (terms[k] + 1)
+        yield SmoothPatch(int(first[k]), int(last[k]), tuple(used[k].tolist()), series)
+
+
+def _runs(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the runs (n,) that each have `count` (k,) members, and members (n,): `first` (k,)
+    and the whole numbers after it."""
+    run = np.repeat(np.arange(len(count)), count)
+    return run, np.arange(len(run)) + (first - np.cumsum(count) + count)[run]

@@ -14,7 +14,8 @@ outside, f a cubic spline through the nodal values that the means give.
 from collections.abc import Callable
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline
+from scipy.linalg import solve_banded
 
 from analytic.numerics import runs_of
 
@@ -22,8 +23,6 @@ DISTURBED_OPEN = 1  # open nodes beyond an end whose gaps the end disturbs
 # Where an end may lie, from the last touching node (0) to the first open one (1) and about; looked
 # for on as many steps, of which each halving takes a half.
 WITHIN, STEPS, HALVINGS = (-0.5, 1.5), 16, 40
-
-Interval = tuple[float, float]
 
 
 def contact_ends(
@@ -74,8 +73,10 @@ def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
         """(k, m) at ends (k, m): the determinant of both powers and the gaps on the three hats."""
         over = np.maximum(local[:, None] - end[..., None], 0.0)
         once = over**3 * np.sqrt(over)  # the power 3/2 integrated twice, but for its factor
-        hats = (np.diff(np.diff(values) / step[:, None]) for values in (once, once * over))
-        return (np.cross(*hats) * weighted[:, None]).sum(axis=-1)
+        one, two = (np.diff(np.diff(values) / step[:, None]) for values in (once, once * over))
+        before, after = [2, 0, 1], [1, 2, 0]
+        cross = one[..., after] * two[..., before] - one[..., before] * two[..., after]
+        return (cross * weighted[:, None]).sum(axis=-1)
 
     sampled = np.linspace(*WITHIN, STEPS + 1)
     value = mismatch(np.broadcast_to(sampled, (len(local), len(sampled))))
@@ -90,14 +91,29 @@ def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
     return np.where(change.any(axis=1), 0.5 * (low + high), 0.5)
 
 
-def curve_between(
-    ends: Interval, places: np.ndarray, values: np.ndarray
-) -> Callable[[np.ndarray], np.ndarray]:
-    """p [Pa] on a patch with these ends [m] through `values` (k,) at `places` (k,); 0 beyond."""
-    shape = CubicSpline(places, values / np.sqrt((places - ends[0]) * (ends[1] - places)))
+def curves_between(
+    ends: np.ndarray, places: np.ndarray, values: np.ndarray, of: np.ndarray
+) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    """p (m,) [Pa] at x (m,) [m] on the patches of those numbers (m,); 0 beyond their ends.
 
-    def curve(at: np.ndarray) -> np.ndarray:
-        inside = np.maximum((at - ends[0]) * (ends[1] - at), 0.0)
-        return np.sqrt(inside) * shape(np.clip(at, places[0], places[-1]))
+    ends    (k, 2) [m] of the patches
+    places  (n,) [m] of `values` (n,) [Pa] of the patches `of` (n,), ascending, four or more each a
+            pitch apart"""
+    left, right = ends.T
+    shape = values / np.sqrt((places - left[of]) * (right[of] - places))
+    # slopes of a spline on each patch, a pitch as the unit: "not a knot" next to its ends
+    first, last = np.searchsorted(of, np.arange(len(ends))), np.cumsum(np.bincount(of)) - 1
+    rise, sums, bands = np.diff(shape), np.zeros(len(of)), np.tile([[1.0], [4.0], [1.0]], len(of))
+    sums[1:-1] = 3.0 * (rise[:-1] + rise[1:])
+    sums[first] = 0.5 * (5.0 * rise[first] + rise[first + 1])
+    sums[last] = 0.5 * (5.0 * rise[last - 1] + rise[last - 2])
+    bands[:, first], bands[:, last] = [[0.0], [1.0], [1.0]], [[1.0], [1.0], [0.0]]
+    bands[0, first + 1] = bands[2, last - 1] = 2.0
+    slope = solve_banded((1, 1), bands, sums) / (places[1] - places[0])
+    spline, low, high = CubicHermiteSpline(places, shape, slope), places[first], places[last]
+
+    def curve(at: np.ndarray, patch: np.ndarray) -> np.ndarray:
+        inside = np.maximum((at - left[patch]) * (right[patch] - at), 0.0)
+        return np.sqrt(inside) * spline(np.clip(at, low[patch], high[patch]))
 
     return curve

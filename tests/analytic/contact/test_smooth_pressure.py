@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.contact.smooth_pressure import contact_ends, curve_between, nodal_values
+from analytic.contact.smooth_pressure import contact_ends, curves_between, nodal_values
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import hat_integrals
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
@@ -81,13 +81,19 @@ def test_the_curve_of_nodal_values_is_closer_to_the_pressure_than_the_hats():
     nodes, ends = contact_ends(hats, solution.pressure, solution.gap)
     held = slice(nodes[0, 0] + 2, nodes[0, 1] - 1)
     x, nodal = hats[1:-1], nodal_values(hats, solution.pressure)
-    curve = curve_between(tuple(ends[0]), x[held], nodal[held])
+    alone = np.zeros(len(x[held]), dtype=int)
+    curve = curves_between(ends, x[held], nodal[held], alone)
     at = np.linspace(-0.999, 0.999, 4001)
-    exact = HERTZ.pressure(at)
+    exact, found = HERTZ.pressure(at), curve(at, np.zeros(4001, dtype=int))
     by_hats = np.interp(at, x, solution.pressure)
-    assert np.linalg.norm(curve(at) - exact) < 0.55 * np.linalg.norm(by_hats - exact)
-    assert abs(curve(at).max() - 1.0) < 2e-4
-    assert np.array_equal(curve(np.array([-1.2, 1.2])), np.zeros(2))
+    assert np.linalg.norm(found - exact) < 0.55 * np.linalg.norm(by_hats - exact)
+    assert abs(found.max() - 1.0) < 2e-4
+    assert np.array_equal(curve(np.array([-1.2, 1.2]), np.zeros(2, dtype=int)), np.zeros(2))
+    # beside others each patch has the curve that it has alone
+    both = np.concatenate([ends, ends + 3.0])
+    twice = np.concatenate([x[held], x[held] + 3.0]), np.tile(nodal[held], 2)
+    curve = curves_between(both, *twice, np.concatenate([alone, alone + 1]))
+    np.testing.assert_allclose(curve(at + 3.0, np.ones(4001, dtype=int)), found, atol=1e-12)
 
 
 def test_a_mirrored_contact_has_mirrored_ends():
