@@ -1,9 +1,9 @@
 """Triangles of degree 1, 2 or 3: shape functions, their slopes, quadrature, location of points.
 
 Node order is gmsh's: vertices (0, 0), (1, 0), (0, 1), then the inner nodes of edges 01, 12, 20,
-each in that direction and evenly spaced, then the inside. A shape function is a product of one
-factor for each of the three barycentric coordinates (Zienkiewicz and Taylor, The Finite Element
-Method, 5th ed., section 8.8). (r, s) are reference coordinates, J = d(x, z)/d(r, s) the Jacobian.
+each in that direction and evenly spaced, then the inside. A shape function is the polynomial that
+is 1 at its node and 0 at all others. (r, s) are reference coordinates, J = d(x, z)/d(r, s) the
+Jacobian.
 """
 
 from functools import cache, cached_property
@@ -41,34 +41,50 @@ def reference_nodes(degree: int) -> np.ndarray:
 
 def shapes(at: np.ndarray, degree: int = 2) -> np.ndarray:
     """Shape functions (..., k) at reference points (..., 2)."""
-    factor, _ = _factors(_barycentric(at), degree)
-    i, j, k = lattice(degree).T
-    return factor[..., 0, i] * factor[..., 1, j] * factor[..., 2, k]
+    return monomials(at, degree) @ _coefficients(degree)
 
 
 def slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
     """d shape / d(r, s) (..., k, 2) at reference points (..., 2)."""
-    factor, slope = _factors(_barycentric(at), degree)
-    i, j, k = lattice(degree).T
-    first, second, third = factor[..., 0, i], factor[..., 1, j], factor[..., 2, k]
-    along_t = slope[..., 0, i] * second * third
-    along_r = first * slope[..., 1, j] * third
-    along_s = first * second * slope[..., 2, k]
-    return np.stack([along_r - along_t, along_s - along_t], axis=-1)
+    r, s = at[..., 0], at[..., 1]
+    along_r = [i * r ** max(i - 1, 0) * s**j for i, j in _powers(degree)]
+    along_s = [j * r**i * s ** max(j - 1, 0) for i, j in _powers(degree)]
+    slope = (np.stack(along, axis=-1) @ _coefficients(degree) for along in (along_r, along_s))
+    return np.stack(list(slope), axis=-1)
 
 
 def edge_shapes(t: np.ndarray, degree: int = 2) -> np.ndarray:
     """Shape functions (..., degree + 1) of an edge's nodes in turn, at t (...) from 0 to 1."""
-    factor, _ = _factors(np.stack([1.0 - t, t], axis=-1), degree)
-    i = np.arange(degree + 1)
-    return factor[..., 0, degree - i] * factor[..., 1, i]
+    return np.stack([t**i for i in range(degree + 1)], axis=-1) @ _edge_coefficients(degree)
 
 
 def edge_slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
     """d shape / dt (q, degree + 1) of an edge's nodes in turn, at t (q,) from 0 to 1."""
+    slope = np.stack([i * at ** max(i - 1, 0) for i in range(degree + 1)], axis=-1)
+    return slope @ _edge_coefficients(degree)
+
+
+def monomials(at: np.ndarray, degree: int) -> np.ndarray:
+    """Terms x^i z^j (..., k) of a polynomial at points (..., 2), the lowest first."""
+    x, z = at[..., 0], at[..., 1]
+    return np.stack([x**i * z**j for i, j in _powers(degree)], axis=-1)
+
+
+def _powers(degree: int) -> list[tuple[int, int]]:
+    return [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
+
+
+@cache
+def _coefficients(degree: int) -> np.ndarray:
+    """Of each monomial in each shape function (k, k): whole, or of degree 3 halves."""
+    return np.linalg.inv(monomials(reference_nodes(degree), degree)).round(6)
+
+
+@cache
+def _edge_coefficients(degree: int) -> np.ndarray:
+    """Of each power in each shape function of an edge (degree + 1, degree + 1)."""
     power = np.arange(degree + 1)
-    slope = power * at[:, None] ** np.maximum(power - 1, 0)
-    return slope @ np.linalg.inv((power[:, None] / degree) ** power)
+    return np.linalg.inv((power[:, None] / degree) ** power).round(6)
 
 
 def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -108,17 +124,6 @@ def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
 def _barycentric(at: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (..., 3) at reference points (..., 2)."""
     return np.concatenate([1.0 - at.sum(axis=-1, keepdims=True), at], axis=-1)
-
-
-def _factors(part: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """Factors (..., degree + 1) of a coordinate L (...), and their derivatives. The m-th is 1 at L
-    = m / degree and 0 at smaller multiples of 1 / degree."""
-    value, slope = [np.ones_like(part)], [np.zeros_like(part)]
-    for m in range(degree):
-        rest = degree * part - m
-        slope.append((slope[m] * rest + value[m] * degree) / (m + 1))
-        value.append(value[m] * rest / (m + 1))
-    return np.stack(value, axis=-1), np.stack(slope, axis=-1)
 
 
 class Locator:

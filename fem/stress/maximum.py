@@ -15,7 +15,7 @@ import numpy as np
 
 from analytic.stress_state import Extremum, StressState, von_mises
 from fem.body.elasticity import ElasticBody
-from fem.body.triangle import shapes
+from fem.body.triangle import monomials, shapes
 from fem.stress.recovery import MaterialStress
 from fem.stress.stress import NodalStress, within
 
@@ -268,7 +268,7 @@ def _smooth_maximum(
     origin = np.array([start.x, start.z])
     unit = np.abs(points - origin).max()
     offset = (points - origin) / unit
-    terms = _terms(offset, degree)
+    terms = monomials(offset, degree)
     if start.value == 0.0 or len(points) <= terms.shape[1]:
         return None
     fit, *_ = np.linalg.lstsq(terms, stress, rcond=None)
@@ -278,7 +278,7 @@ def _smooth_maximum(
 
     low, high, top = offset.min(axis=0), offset.max(axis=0), np.zeros(2)
     for _ in range(STEPS):
-        value = of(_terms(top + STEP * _STENCIL, degree) @ fit) / abs(start.value)
+        value = of(monomials(top + STEP * _STENCIL, degree) @ fit) / abs(start.value)
         slope, bend = _derivatives(value)
         curvature, axes = np.linalg.eigh(bend)
         curvature = np.maximum(np.abs(curvature), FLAT)
@@ -303,10 +303,3 @@ def _derivatives(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     mixed = 0.25 * (v[2, 2] - v[2, 0] - v[0, 2] + v[0, 0])
     along = v[2, 1] + v[0, 1] - 2.0 * v[1, 1], v[1, 2] + v[1, 0] - 2.0 * v[1, 1]
     return slope, np.array([[along[0], mixed], [mixed, along[1]]]) / STEP**2
-
-
-def _terms(at: np.ndarray, degree: int) -> np.ndarray:
-    """Terms (k, n) of a polynomial at points (k, 2)."""
-    x, z = at.T
-    powers = [(i, d - i) for d in range(degree + 1) for i in range(d + 1)]
-    return np.stack([x**i * z**j for i, j in powers], axis=-1)

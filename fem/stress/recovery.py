@@ -26,7 +26,15 @@ from scipy.sparse import csr_matrix, diags
 from analytic.stress_state import StressState
 from fem.body.elasticity import MeshedBody
 from fem.body.sums import matrix_of
-from fem.body.triangle import GAUSS, edge_shapes, edge_slopes, gradients, reference_nodes, shapes
+from fem.body.triangle import (
+    GAUSS,
+    edge_shapes,
+    edge_slopes,
+    gradients,
+    monomials,
+    reference_nodes,
+    shapes,
+)
 from fem.stress.kinks import Kinks, Weights, runs
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 from meshes.block import EDGES
@@ -279,13 +287,13 @@ class Recovery:
         def product(terms: np.ndarray, stress: np.ndarray) -> np.ndarray:
             return terms.transpose(0, 2, 1) @ stress.reshape(*terms.shape[:2], -1)
 
-        terms = _terms(offset / radius[patch][:, None, None], body.degree)
+        terms = monomials(offset / radius[patch][:, None, None], body.degree)
         moments = np.add.reduceat(product(terms, terms), first, axis=0)
         sums = np.add.reduceat(product(terms, stress), first, axis=0)
         if load is not None and len(patches.beside):
             patch, place, stress = near.surface_samples(load, displacement)
             offset = place - centre[patch][:, None]
-            terms = _terms(offset / radius[patch][:, None, None], body.degree)
+            terms = monomials(offset / radius[patch][:, None, None], body.degree)
             np.add.at(moments, patch, SURFACE_WEIGHT * product(terms, terms))
             np.add.at(sums, patch, SURFACE_WEIGHT * product(terms, stress))
         curved = np.arange(3, terms.shape[-1])
@@ -294,7 +302,7 @@ class Recovery:
 
         middle = points.take(patches.middle, axis=0)[:, None]
         offset = middle - centre.take(patches.ends, axis=0)
-        terms = _terms(offset / radius[patches.ends][..., None], body.degree)
+        terms = monomials(offset / radius[patches.ends][..., None], body.degree)
         at_vertex = fit[:, 0].reshape(-1, *shape)
         ends = fit.take(patches.ends, axis=0)
         at_middle = (terms[:, :, None] @ ends)[:, :, 0].reshape(-1, 2, *shape)
@@ -386,10 +394,3 @@ def linear_stress(slope: np.ndarray, shear: np.ndarray, lame: np.ndarray) -> np.
     pressure = lame * (exx + ezz)
     twist = shear * (slope[..., 0, 1] + slope[..., 1, 0])
     return np.stack([pressure + 2.0 * shear * exx, pressure + 2.0 * shear * ezz, twist], axis=-1)
-
-
-def _terms(offset: np.ndarray, degree: int) -> np.ndarray:
-    """Terms (..., k) x^i z^j of a polynomial at offsets (..., 2), the lowest first."""
-    x, z = offset[..., 0], offset[..., 1]
-    powers = [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
-    return np.stack([x**i * z**j for i, j in powers], axis=-1)
