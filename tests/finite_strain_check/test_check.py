@@ -127,7 +127,7 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=4e-3)
 
 
-@pytest.mark.parametrize("name", ["aluminium alloy", "fused silica"])
+@pytest.mark.parametrize("name", ["rail steel", "aluminium alloy", "fused silica"])
 def test_measured_constants_are_those_of_the_projects_own_elements(name):
     """Under a rigid roller, where the law changes the peak by 1 to 3 %."""
     solid = solids()[name]

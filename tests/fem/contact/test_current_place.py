@@ -342,8 +342,9 @@ class TestPressed:
             energies.append(sum(map(neo_hookean_energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 
-    def test_figures_converge_with_the_edges(self):
-        cases = [pressed(0.1, edge) for edge in (0.1, 0.05, 0.025)]
+    @pytest.mark.parametrize("on_rough", [False, True])
+    def test_figures_converge_with_the_edges(self, on_rough):
+        cases = [pressed(0.1, edge, on_rough=on_rough) for edge in (0.1, 0.05, 0.025)]
         peak = np.array([case.pressure.max() for case in cases])
         tau1 = np.array([case.tau1 for case in cases])
         assert abs(peak[1] - peak[2]) < 0.5 * abs(peak[0] - peak[1])

@@ -46,6 +46,7 @@ def steel(radius: float, peak_pressure: float, friction: float = 0.0, **roller: 
 
 # What both scenes have, and the switches that one of them has beside it.
 SCENES = {
+    "rubber": (RUBBER, STRAINED),
     "rubber, friction": (changed(RUBBER, load={"friction": 0.3}), STRAINED | COUPLED),
     "steel block, friction": (
         changed(steel(10e-3, 2e9, 0.2), body={"thickness": 2e-3, "width": 4e-3}),

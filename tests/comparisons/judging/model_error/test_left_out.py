@@ -23,6 +23,7 @@ JUDGED = ("peak_pressure", "contact_length")
 RIGID = {"rigid": True}
 WAVY = {"kind": "sinusoid", "wavelength": 150e-6, "amplitude": 0.2e-6}
 SCENES = {
+    "smooth": {"roller": RIGID},
     "smooth, well within": {"roller": RIGID, "tolerance": dict.fromkeys(JUDGED, 0.1)},
     "layer": {"roller": RIGID, "body": {"thickness": 0.3e-3, "base": "bonded"}},
     "coated": {
