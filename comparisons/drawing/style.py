@@ -6,6 +6,7 @@ line style, for grey printers.
 
 import base64
 import io
+import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -51,8 +52,8 @@ BEHIND_LEGEND = {"frameon": True, "framealpha": 1.0, "edgecolor": "none", "borde
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
-_OUTLINE = re.compile(rb' d="([^"]*)"')
-_INVISIBLE = re.compile(rb"(?<=\.\d\d)\d+|\s+(?=[MLCQZz])|(?<=[MLCQZz])\s+")
+_OUTLINE = re.compile(r' d="([^"]*)"')
+_INVISIBLE = re.compile(r"(?<=\.\d\d)\d+|\s+(?=[MLCQZz])|(?<=[MLCQZz])\s+")
 
 
 @dataclass(frozen=True)
@@ -175,15 +176,19 @@ def power_of_ten(power: int) -> str:
     return "10" + str(power).translate(SUPERSCRIPT)
 
 
+def in_powers_of_ten(value: float, place: int | None = None) -> str:
+    """Label of a tick at a power of ten."""
+    return power_of_ten(round(math.log10(value)))
+
+
 def svg(drawn: "Figure") -> str:
     """The figure as SVG; equal figures give equal text."""
-    buffer = io.BytesIO()
+    buffer = io.StringIO()
     drawn.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     # a hundredth of a point is enough for outlines, and half the size
-    short = _OUTLINE.sub(
-        lambda outline: b' d="' + _INVISIBLE.sub(b"", outline[1]).strip() + b'"', buffer.getvalue()
+    return _OUTLINE.sub(
+        lambda outline: f' d="{_INVISIBLE.sub("", outline[1]).strip()}"', buffer.getvalue()
     )
-    return short.decode("utf-8")
 
 
 def svgs(draws: "Mapping[str, Callable[[], Figure]]") -> dict[str, str]:

@@ -291,7 +291,9 @@ def picture(run: Run) -> style.Picture | None:
     shown = [size for size in (*shown, *floors) if LEAST < size < math.inf] or [LEAST]
     panels[0].set_ylim(0.3 * min(shown), 3.0 * max(shown))
     panels[0].set_ylabel("error / reference")
-    for axis in (panels[0].xaxis, panels[0].yaxis):  # all nine take half of the picture's time
+    for axis in (panels[0].xaxis, panels[0].yaxis):
+        axis.set_major_formatter(style.in_powers_of_ten)
+        # all nine take half of the picture's time
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)
     joint_legend(drawn, 2 * len(names) - 1)
@@ -317,6 +319,8 @@ def _draw(axes: "Axes", run: Run, name: str) -> None:
     if LEAST < floor < math.inf:
         axes.axhspan(LEAST, floor, facecolor="#eceff1", zorder=0, label="reference uncertain")
     axes.set(xscale="log", yscale="log", xlabel="time [s]")
+    axes.xaxis.set_label_coords(0.5, -0.15)  # as matplotlib, which measures all numbers for it
+    axes.yaxis.set_label_coords(-0.16, 0.5)
     axes.set_title(label(name))
 
 

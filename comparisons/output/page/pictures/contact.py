@@ -121,6 +121,7 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
         "top", functions=(lambda x: x / half_width, lambda s: s * half_width)
     )
     top.tick_params(pad=1.5)
+    top.xaxis.set_label_coords(0.5, 1.0)  # else numbers are measured for a label that it has not
     # at the ends a number would be cut, or stand on the axis' name
     low, high = (x / half_width for x in axes.get_xlim())
     ticks = MaxNLocator(TICKS, steps=STEPS).tick_values(low, high)
