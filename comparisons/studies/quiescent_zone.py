@@ -28,6 +28,7 @@ a quarter less shear lasts an order of magnitude longer."""
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
 from math import inf, isfinite, nan
 from operator import attrgetter
 
@@ -45,7 +46,7 @@ from comparisons.models.problem import Problem
 
 NAME = "quiescent_zone"
 _depth = partial(Quantity, unit="m", scale=attrgetter("half_width"), over=(1.0, "a"))
-QUANTITIES = {  # of a dip, in the order of `shear_dip`
+QUANTITIES = {  # of a dip, in the order of `shear_dips`
     "level": Quantity("least shear over the Hertz zone's"),
     "ratio": Quantity("least shear over the smaller maximum"),
     "depth": _depth("depth of the least shear"),
@@ -71,17 +72,22 @@ DEEPEST = 0.8  # a: as far down the Hertz zone's maximum may lie, and the fields
 SHORT = 0.02  # of what they must reach to, by which they may end before
 
 
-def shear_dip(z: np.ndarray, shear: np.ndarray, deep: float) -> dict[str, float]:
-    """The QUANTITIES of the dip of `shear` (m,) over depths z (m,), ascending from the surface, on
-    any scales of both; ends of no zone are nan. The Hertz zone's maximum is sought from `deep` on.
-    Between the points runs a C2 cubic spline, searched at FINE points an interval."""
-    known = np.isfinite(shear)
-    places = np.arange(np.count_nonzero(known), dtype=float)
-    between = np.linspace(0.0, places[-1], FINE * (len(places) - 1) + 1)
-    spline = CubicSpline(z[known], shear[known])
-    z = np.interp(between, places, z[known])
-    bottom = int(np.argmax(np.where(z >= deep, spline(z), -inf)))
-    z, shear = z[: bottom + 1], spline(z[: bottom + 1])
+def shear_dips(z: np.ndarray, shears: np.ndarray, deep: float) -> list[dict[str, float]]:
+    """The QUANTITIES of the dip of each of `shears` (k, m) over depths z (m,), ascending from the
+    surface, on any scales of both; ends of no zone are nan. The Hertz zone's maximum is sought from
+    `deep` on. Between the points runs a C2 cubic spline, searched at FINE points an interval."""
+    known = np.isfinite(shears)
+    if not known.all():
+        alone = (shear_dips(z[k], row[k][None], deep) for k, row in zip(known, shears, strict=True))
+        return [dip for [dip] in alone]
+    places = np.arange(len(z), dtype=float)
+    fine = np.interp(np.linspace(0.0, places[-1], FINE * (len(z) - 1) + 1), places, z)
+    return [_dip(fine, shear, deep) for shear in CubicSpline(z, shears, axis=1)(fine)]
+
+
+def _dip(z: np.ndarray, shear: np.ndarray, deep: float) -> dict[str, float]:
+    bottom = int(np.argmax(np.where(z >= deep, shear, -inf)))
+    z, shear = z[: bottom + 1], shear[: bottom + 1]
     hertz, peak = shear[-1], int(np.argmax(shear))
     low = int(np.argmax(np.minimum(np.maximum.accumulate(shear), hertz) - shear))
     top = int(np.argmax(shear[: low + 1]))
@@ -120,30 +126,33 @@ def mean_shear(problem: Problem, tau1: np.ndarray, every: int = 1) -> np.ndarray
 
 
 def zone_of(problem: Problem, level: Level, every: int = 1) -> dict[str, float]:
-    """`shear_dip` of one level, read on every n-th row and column of the window; Pa and m."""
+    """`shear_dips` of one level, read on every n-th row and column of the window; Pa and m."""
     tau1 = level.stress.field.tau1[::every]
     shear = mean_shear(problem, tau1, every)
-    return shear_dip(problem.window.z[::every], shear, DEEP * problem.hertz.half_width)
+    [dip] = shear_dips(problem.window.z[::every], shear[None], DEEP * problem.hertz.half_width)
+    return dip
 
 
 def asperity_rows(problem: Problem, level: Level) -> list[dict[str, object]]:
     """Rows, one an asperity that touches at |x| <= a, of a zone as wide: x and length of its
     contact [m], and the dip of the largest shear below it."""
-    a, tau1 = problem.hertz.half_width, level.stress.field.tau1
-    rows, window, tau1 = [], problem.window, np.where(np.isfinite(tau1), tau1, -inf)
-    for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
-        columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
-        patches = np.clip(level.patches, max(start, -a), min(stop, a))
+    a, tau1, window = problem.hertz.half_width, level.stress.field.tau1, problem.window
+    rows, shears, tau1 = [], [], np.where(np.isfinite(tau1), tau1, -inf)
+    for ends in pairwise(np.clip((-inf, *problem.asperities, inf), -a, a)):
+        columns = slice(*np.searchsorted(window.x, ends))
+        patches = np.clip(level.patches, *ends)
         lengths = np.diff(patches, axis=1)[:, 0]
         length = float(lengths.sum())
-        if not np.any(columns) or length <= 0.0:
+        if columns.start == columns.stop or length <= 0.0:
             continue
         shear = np.max(tau1[:, columns], axis=1)
-        dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
-        place = float(lengths @ patches.mean(axis=1) / length)
-        known = {"level": dip["level"], "state": state_of(dip)}
-        rows.append({"x": place, "length": length} | known)
-    return rows
+        shears.append(np.where(np.isfinite(shear), shear, nan))
+        rows.append({"x": float(lengths @ patches.mean(axis=1) / length), "length": length})
+    dips = shear_dips(window.z, np.array(shears), DEEP * a) if shears else ()
+    return [
+        row | {"level": dip["level"], "state": state_of(dip)}
+        for row, dip in zip(rows, dips, strict=True)
+    ]
 
 
 def zone_figures(case: Case, run: Solution) -> tuple[tuple[Figure, ...], str]:

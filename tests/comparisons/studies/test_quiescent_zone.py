@@ -30,8 +30,13 @@ def below_a_wave(z, height=1.0, wave=100.0):
     return height * wave * z * np.exp(-wave * z) + z / (0.2 + z**2)
 
 
+def dip_of(z, shear, deep):
+    [dip] = q.shear_dips(z, shear[None], deep)
+    return dip
+
+
 def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
-    dip = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
+    dip = dip_of(Z, below_a_wave(Z, 4.0), 0.4)
     low = minimize_scalar(
         lambda z: below_a_wave(z, 4.0), bounds=(0.02, 0.3), options={"xatol": 1e-9}
     )
@@ -60,7 +65,7 @@ def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
     ],
 )
 def test_where_there_is_no_zone(shear, status, level):
-    dip = q.shear_dip(Z, shear, 0.4)
+    dip = dip_of(Z, shear, 0.4)
     assert q.state_of(dip) == status
     assert np.isnan(dip["start"]) and np.isnan(dip["stop"])
     if level is not None:
@@ -68,10 +73,21 @@ def test_where_there_is_no_zone(shear, status, level):
 
 
 def test_the_scale_of_shear_and_of_depth_does_not_matter():
-    one = q.shear_dip(Z, below_a_wave(Z, 4.0), 0.4)
-    other = q.shear_dip(3e-4 * Z, 7e8 * below_a_wave(Z, 4.0), 1.2e-4)
+    one = dip_of(Z, below_a_wave(Z, 4.0), 0.4)
+    other = dip_of(3e-4 * Z, 7e8 * below_a_wave(Z, 4.0), 1.2e-4)
     assert (other["level"], other["ratio"]) == pytest.approx((one["level"], one["ratio"]), rel=1e-9)
     assert other["start"] == pytest.approx(3e-4 * one["start"], rel=1e-9)
+
+
+def test_dips_are_found_together_as_alone_and_without_what_is_not_known():
+    deep, flat = below_a_wave(Z, 4.0), below_a_wave(Z, 0.2)
+    below = Z >= 0.02
+    cut = np.where(below, deep, np.nan)
+    alone = [dip_of(Z, deep, 0.4), dip_of(Z, flat, 0.4), dip_of(Z[below], deep[below], 0.4)]
+    for together, one in zip(q.shear_dips(Z, np.array([deep, flat, cut]), 0.4), alone, strict=True):
+        np.testing.assert_array_equal(list(together.values()), list(one.values()))
+    both = q.shear_dips(Z, np.array([deep, flat]), 0.4)
+    assert [dip["level"] for dip in both] == [dip["level"] for dip in alone[:2]]
 
 
 @pytest.mark.parametrize("columns", [41, 120, 777])
@@ -95,7 +111,7 @@ def test_friction_alone_bridges_a_smooth_body(friction, status):
     window = SimpleNamespace(x=np.linspace(-1.2, 1.2, 961))
     tau1 = hertz_stress(hertz, window.x, Z[:, None], friction).tau1
     shear = q.mean_shear(SimpleNamespace(hertz=hertz, window=window), tau1)
-    assert q.state_of(q.shear_dip(Z, shear, 0.5)) == status
+    assert q.state_of(dip_of(Z, shear, 0.5)) == status
 
 
 @pytest.fixture
