@@ -69,12 +69,13 @@ def offered(run: Run, offer: Offer) -> bool:
             changed = with_law(changed, offer.options["--law"])
         if "--tolerance" in offer.options:
             changed = with_tolerance(changed, float(offer.options["--tolerance"]))
+        if changed.tables == scene.tables:
+            return "--models" in offer.options
         posed = problem_of(changed, run.problem.surface, run.problem.hertz.load_per_length)
     except (InputError, ContactError):
         return False
-    is_new = changed.tables != scene.tables or "--models" in offer.options
     wanted = {offer.computes} - {"", *contained(changed)}
-    return is_new and not any(why_not(effect, posed) for effect in wanted)
+    return not any(why_not(effect, posed) for effect in wanted)
 
 
 def pasted(run: Run, offer: Offer) -> tuple[str, ...]:
