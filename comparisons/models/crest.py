@@ -90,4 +90,5 @@ def _refined(
     gap = beside(fine.x) - wider * beside(fine.x, 2)
     gap = fine.hat_integrals(problem.gap, problem.knots) + gap * fine.weights
     constraints = problem.constraints(load=float(pressure @ coarse.weights))
-    return fine, solve_coupled(half_planes(problem, fine, effects), gap, fine.weights, constraints)
+    operator, start = half_planes(problem, fine, effects), np.interp(fine.x, coarse.x, pressure)
+    return fine, solve_coupled(operator, gap, fine.weights, constraints, start)
