@@ -26,10 +26,10 @@ Window = tuple[float, float, float]
 # by the rough estimate: that is off by 0.25 where five elements make a wave, by 0.02 on finer.
 DOUBT = 0.5
 FEW, MANY = 32, 512  # highest nodes and elements of a cell, by the estimate, that are looked at
-# samples along an element's edge: of promising elements, of the better, and of the best ones
-COARSE, MEDIUM, FINE = 4, 8, 32
-BEST = 16  # elements sampled more finely, but for those that cannot reach the highest sample:
-RISE = 0.25  # between coarse samples, of what an element's differ by; twice a parabola's
+# samples along an element's edge: of promising elements its nodes, ever more of ever better ones
+*COARSE, FINE = 2, 4, 8, 16, 32
+BEST = 64  # elements sampled more finely, but for those that cannot reach the highest sample:
+RISE = 4.0  # of what an element's samples differ by, over their number's square; twice a parabola's
 NEAR = 0.7  # of the largest value: cells whose own are below it are not sampled between the nodes
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
 # the polynomial: it uses those around all of them.
@@ -162,10 +162,9 @@ def _between_nodes(
         ]
 
     best = _promising(points, triangles, rough, windows)
-    for count in (COARSE, MEDIUM):
-        rise = RISE * (COARSE / count) ** 2
+    for count in COARSE:
         values = (value for value, _ in sampled(best, count))
-        best = [_able(*pair, rise) for pair in zip(best, values, strict=True)]
+        best = [_able(*pair, RISE / count**2) for pair in zip(best, values, strict=True)]
     fine = sampled(best, FINE)
     on_surface = np.zeros(len(body.points), dtype=bool)
     on_surface[body.top.point] = True

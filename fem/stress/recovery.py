@@ -284,21 +284,22 @@ class Recovery:
             near = _NearKinks(body, load.kinks, weights, patches, points)
             near.subtract_from(stress, sampled)
 
-        def product(terms: np.ndarray, stress: np.ndarray) -> np.ndarray:
-            return terms.transpose(0, 2, 1) @ stress.reshape(*terms.shape[:2], -1)
+        def sums(patch: np.ndarray, offset: np.ndarray, stress: np.ndarray) -> np.ndarray:
+            """Over each patch, of products of a polynomial's terms with these and with stresses."""
+            terms = monomials(offset / radius[patch][:, None, None], body.degree)
+            both = np.concatenate([terms, stress.reshape(*terms.shape[:2], -1)], axis=-1)
+            product = terms.transpose(0, 2, 1) @ both
+            onto = matrix_of(np.ones(1), patch, np.arange(len(patch)), (len(centre), len(patch)))
+            return (onto @ product.reshape(len(patch), -1)).reshape(-1, *product.shape[1:])
 
-        terms = monomials(offset / radius[patch][:, None, None], body.degree)
-        moments = np.add.reduceat(product(terms, terms), first, axis=0)
-        sums = np.add.reduceat(product(terms, stress), first, axis=0)
+        fitted = sums(patch, offset, stress)
         if load is not None and len(patches.beside):
             patch, place, stress = near.surface_samples(load, displacement)
-            offset = place - centre[patch][:, None]
-            terms = monomials(offset / radius[patch][:, None, None], body.degree)
-            np.add.at(moments, patch, SURFACE_WEIGHT * product(terms, terms))
-            np.add.at(sums, patch, SURFACE_WEIGHT * product(terms, stress))
-        curved = np.arange(3, terms.shape[-1])
+            fitted += SURFACE_WEIGHT * sums(patch, place - centre[patch][:, None], stress)
+        moments, fitted = np.split(fitted, [fitted.shape[1]], axis=-1)
+        curved = np.arange(3, moments.shape[-1])
         moments[:, curved, curved] += RIDGE * count[:, None]
-        fit = np.linalg.solve(moments, sums)
+        fit = np.linalg.solve(moments, fitted)
 
         middle = points.take(patches.middle, axis=0)[:, None]
         offset = middle - centre.take(patches.ends, axis=0)

@@ -262,8 +262,13 @@ def stresses_of(
                 largest
     """
     body, results = pressed.body, []
-    linear = pressed.linear and pressed.linear(frictions)
+    field = linear = pressed.linear and pressed.linear(frictions)
     nodal = linear.on(body) if linear else (pressed.stress,) * len(frictions)
+    if fields and not linear:  # first: all nodes are recovered at once
+        mises = von_mises(nodal[0].stress, pressed.across)
+        others = {"sy": pressed.across, "von_mises": mises, **pressed.others}
+        moved = np.stack([pressed.moved] * len(frictions), axis=1)
+        field = MeshField.of(body, frictions, nodal, moved, others)
     bounds = (*window.ends, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     shown = [None] * len(frictions)
@@ -284,9 +289,4 @@ def stresses_of(
             mises = highest_node(body, stresses, pressed.across, bounds)
         extremes["von_mises"] = mises
         results.append(StressResult(friction, extremes, highest_places, on_window))
-    if linear or not fields:
-        return tuple(results), linear if fields else None
-    mises = von_mises(nodal[0].stress, pressed.across)
-    others = {"sy": pressed.across, "von_mises": mises, **pressed.others}
-    moved = np.stack([pressed.moved] * len(frictions), axis=1)
-    return tuple(results), MeshField.of(body, frictions, nodal, moved, others)
+    return tuple(results), field if fields else None
