@@ -39,18 +39,19 @@ from comparisons.studies import problem as asked
 # Each gives one picture, a list, or None where it does not apply; about the longest first.
 PICTURES: dict[str, Callable[[Run], object]] = {
     "fields": stresses.field_pictures,
-    "near": stresses.near_surface_pictures,
-    "mesh": mesh_pictures,
-    "plastic_strain": stresses.plastic_strain_pictures,
-    "pressure": contact.pressure_picture,
     "sections": stresses.section_pictures,
-    "convergence": refinement.convergence_picture,
+    "mesh": mesh_pictures,
+    "overview": answer.overview_picture,
+    "near": stresses.near_surface_pictures,
+    "plastic_strain": stresses.plastic_strain_pictures,
+    **{name: draw for study in STUDIES for name, draw in study.pictures.items()},
+    "pressure": contact.pressure_picture,
     "close_up": contact.close_up_picture,
+    "convergence": refinement.convergence_picture,
     "problem": problem.problem_picture,
     "surface": contact.surface_picture,
-    "overview": answer.overview_picture,
     "judged": answer.judged_picture,
-} | {name: draw for study in STUDIES for name, draw in study.pictures.items()}
+}
 # Sections with a fixed order, by id; those of other studies follow the stresses. Those from the
 # problem on are for reviewers: folded away on a screen, and printed.
 ORDER = ("model-error", "comparison", "answers", "contact", "stresses", "", "yield")
