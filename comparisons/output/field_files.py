@@ -171,7 +171,7 @@ def write_field(path: Path, field: FieldFile) -> None:
     piece = ElementTree.SubElement(grid, "Piece", sizes)
     at_points = ElementTree.SubElement(piece, "PointData")
     for name, values in field.arrays.items():
-        array = _add_array(at_points, name, values, zlib.Z_HUFFMAN_ONLY)
+        array = _add_array(at_points, name, values)
         unit = {"name": "UNITS_LABEL", "location": "vtkDataArray"}
         ElementTree.SubElement(array, "InformationKey", unit).text = field.units[name]
     _add_array(ElementTree.SubElement(piece, "Points"), "Points", field.points)
@@ -183,11 +183,7 @@ def write_field(path: Path, field: FieldFile) -> None:
 
 
 def _add_array(
-    parent: ElementTree.Element,
-    name: str,
-    values: np.ndarray,
-    strategy: int = zlib.Z_DEFAULT_STRATEGY,
-    **more: str,
+    parent: ElementTree.Element, name: str, values: np.ndarray, **more: str
 ) -> ElementTree.Element:
     """Add a DataArray of one compressed block; returns it."""
     kind = {"f": "Float", "i": "Int", "u": "UInt"}[values.dtype.kind] + str(8 * values.itemsize)
@@ -198,6 +194,7 @@ def _add_array(
     content = values.astype(values.dtype.newbyteorder("<")).tobytes()
     # LZMA makes of rounded numbers a fifth less and takes eight times as long; higher levels of
     # zlib make them no smaller, nor does a search for what comes again in stresses of a rough body
+    strategy = zlib.Z_HUFFMAN_ONLY if parent.tag == "PointData" else zlib.Z_DEFAULT_STRATEGY
     packer = zlib.compressobj(1, strategy=strategy)
     block = packer.compress(content) + packer.flush()
     head = np.array([1, len(content), 0, len(block)], dtype="<u4")  # blocks, their size, rest
