@@ -13,6 +13,7 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
+from analytic.stress.elements import FrictionStress
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import machine_memory
@@ -154,9 +155,12 @@ class RecoverableField:
         from fem.stress.stress import nodal_stresses
         from fem.stress.surface_load import SurfaceLoad
 
-        frictions = np.array(self.frictions)
-        load = SurfaceLoad(body, self.hats, self.pressure, frictions)
-        beside = [self.ends.at(friction) for friction in self.frictions]
+        load = SurfaceLoad(body, self.hats, self.pressure, np.array(self.frictions))
+
+        def beside(x: np.ndarray, z: np.ndarray) -> list[StressState]:
+            left_out = FrictionStress.of(self.ends.parts(x, z))
+            return [left_out.at(friction) for friction in self.frictions]
+
         return nodal_stresses(self.displacement, load, beside)
 
 

@@ -9,7 +9,11 @@ Hertz contacts of quadratic elements, friction 0 to 0.3, 55 to 130 edges a half-
 tau1 errs by 5e-4 in root mean square with two rings, by 3e-3 with one; its value by 1.2e-5, 2.6e-5.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
 
 import numpy as np
 
@@ -42,82 +46,70 @@ FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch'
 STEPS, LONGEST, NONE = 30, 0.25, 1e-10
 
 
-class Samples:
-    """Stresses at points of elements, computed once for all quantities that are looked for."""
+@dataclass(frozen=True, eq=False)
+class Search:
+    """For the largest value of a `quantity`, made of the stresses (and Poisson's ratio) point by
+    point, in every cell of x."""
 
-    def __init__(self, body: ElasticBody, nodal: NodalStress) -> None:
-        self._body, self._nodal = body, nodal
-        self._known: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+    nodal: NodalStress
+    quantity: Quantity
+    cells: Sequence[float] = ()  # (k,) [m] where one cell ends and the next begins, ascending
 
-    def of(self, element: np.ndarray, count: int) -> np.ndarray:
-        """sx, sz, txz (r, q, 3) [Pa] at the `_lattice` of elements (r,)."""
-        at = _lattice(count)
-        known, stress = self._known.get(count, (np.empty(0, dtype=int), np.empty((0, len(at), 3))))
-        new = np.setdiff1d(element, known)
-        if len(new):
-            known = np.concatenate([known, new])
-            stress = np.concatenate([stress, within(self._body, self._nodal, new, at)])
-            order = np.argsort(known)
-            known, stress = self._known[count] = known[order], stress[order]
-        return stress[np.searchsorted(known, element)]
+    @cached_property
+    def rough(self) -> np.ndarray:
+        """The estimate at all nodes (n,)."""
+        stress = self.nodal.estimate().T
+        return self.quantity(MaterialStress(*stress, self.nodal.poissons_ratio))
 
 
 def maximum(
-    body: ElasticBody,
-    nodal: NodalStress,
-    quantity: Quantity,
-    window: Window | None = None,
-    samples: Samples | None = None,
+    body: ElasticBody, nodal: NodalStress, quantity: Quantity, window: Window | None = None
 ) -> Extremum:
-    """Largest value of a `quantity` made of the stresses (and Poisson's ratio) point by point.
-    `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1; `samples` are of the
-    same stresses. Raises ValueError if no sample lies in the window."""
-    rough = quantity(MaterialStress(*nodal.estimate().T, nodal.poissons_ratio))
-    samples = samples or Samples(body, nodal)
-    (highest,) = _between_nodes(body, nodal, quantity, rough, [window], samples)
+    """Largest value of a `quantity`. `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1
+    and z <= z1. Raises ValueError if no sample lies in the window."""
+    [highest] = _between_nodes(body, [(Search(nodal, quantity), window)])
     return highest
 
 
-def maxima(
-    body: ElasticBody,
-    nodal: NodalStress,
-    quantity: Quantity,
-    window: Window,
-    cells: Sequence[float] = (),
-    samples: Samples | None = None,
-) -> np.ndarray:
-    """Largest value in each cell of x, from left to right: value, x and z (3, k + 1) [m].
-
-    cells  (k,) [m] where one cell ends and the next begins, ascending
+def maxima(body: ElasticBody, searches: Sequence[Search], window: Window) -> list[np.ndarray]:
+    """Largest value in each cell, from left to right: value, x and z (3, k + 1) [m], of each search
+    in stresses that are known together.
 
     Where the highest node is below NEAR of the highest of all, that node is taken; a cell without a
     node in the window has the value 0 and no x and z.
     """
-    x0, x1, z1 = window
-    points, nu = body.points[nodal.nodes.point], nodal.poissons_ratio
-    rough = quantity(MaterialStress(*nodal.estimate().T, nu))
+    (x0, x1, z1), looks, cells = window, [], []
+    found = [_at_nodes(body, search, window) for search in searches]
+    for search, largest in zip(searches, found, strict=True):
+        ends, value = np.clip([x0, *search.cells, x1], x0, x1), largest[0]
+        for k in np.flatnonzero((value >= NEAR * value.max()) & (value > 0.0)):
+            looks.append((search, (ends[k], ends[k + 1], z1)))
+            cells.append(largest[:, k])
+    for cell, best in zip(cells, _between_nodes(body, looks), strict=True):
+        cell[:] = best.value, best.x, best.z
+    return found
+
+
+def _at_nodes(body: ElasticBody, search: Search, window: Window) -> np.ndarray:
+    """`maxima` at the nodes alone."""
+    nodal, rough, cells = search.nodal, search.rough, search.cells
+    points = body.points[nodal.nodes.point]
     inside = np.flatnonzero(_inside(points, window))
-    ends = np.clip([x0, *cells, x1], x0, x1)
-    cell, top = np.searchsorted(cells, points[inside, 0]), np.full(len(ends) - 1, -np.inf)
+    cell, top = np.searchsorted(cells, points[inside, 0]), np.full(len(cells) + 1, -np.inf)
     np.maximum.at(top, cell, rough[inside])
     high = rough[inside] >= (top - DOUBT * np.abs(top))[cell]
     inside, cell = inside[high], cell[high]
     order = np.lexsort((-rough[inside], cell))
-    first = np.searchsorted(cell[order], np.arange(len(ends)))
+    first = np.searchsorted(cell[order], np.arange(len(top)))
     few = order[np.arange(len(order)) - first[cell[order]] < FEW]
     node, cell = inside[few], cell[few]
-    value = quantity(MaterialStress(*nodal.at(node).T, nu[node]))
-    largest = np.full((3, len(ends) - 1), np.nan)
-    largest[0], least = 0.0, NEAR * value.max(initial=0.0)
+    value = search.quantity(MaterialStress(*nodal.at(node).T, nodal.poissons_ratio[node]))
+    largest = np.full((3, len(top)), np.nan)
+    largest[0] = 0.0
     for k in np.unique(cell):
         mine = np.flatnonzero(cell == k)
         highest = mine[np.argmax(value[mine])]
         largest[:, k] = value[highest], *points[node[highest]]
-    near = np.flatnonzero((largest[0] >= least) & (largest[0] > 0.0)) if least > 0.0 else []
-    windows = [(ends[k], ends[k + 1], z1) for k in near]
-    search = body, nodal, quantity, rough, windows, samples or Samples(body, nodal)
-    for k, best in zip(near, _between_nodes(*search), strict=True):
-        largest[:, k] = best.value, best.x, best.z
     return largest
 
 
@@ -136,43 +128,37 @@ def highest_node(
 
 
 def _between_nodes(
-    body: ElasticBody,
-    nodal: NodalStress,
-    quantity: Quantity,
-    rough: np.ndarray,
-    windows: Sequence[Window | None],
-    samples: Samples,
+    body: ElasticBody, looks: Sequence[tuple[Search, Window | None]]
 ) -> list[Extremum]:
-    """`maximum` in each window, by the estimate of the quantity at all nodes (n,)."""
-    if not windows:
+    """`maximum` of each search in its window."""
+    if not looks:
         return []
-    triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
+    every, _ = looks[0][0].nodal.together or (looks[0][0].nodal, ...)
+    triangles, points = every.nodes.triangles, body.points[every.nodes.point]
 
-    def sampled(elements: list[np.ndarray], count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+    def sampled(elements: list[np.ndarray], count: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Values (r, q), -inf outside, and points (r, q, 2) in the elements (r,) of each window."""
-        held, which = np.unique(np.concatenate(elements), return_inverse=True)
-        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(_lattice(count)))
-        stress = np.moveaxis(samples.of(held, count), -1, 0)
-        nu = np.broadcast_to(body.poissons_ratio[held, None], stress.shape[1:])
-        value = quantity(MaterialStress(*stress, nu))
-        ends = np.cumsum([len(part) for part in elements])[:-1]
-        return [
-            (np.where(_inside(place[mine], window), value[mine], -np.inf), place[mine])
-            for mine, window in zip(np.split(which, ends), windows, strict=True)
-        ]
+        held, at = np.unique(np.concatenate(elements)), _lattice(count)
+        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(at))
+        stress = within(body, every, held, at)
+        nu = np.broadcast_to(body.poissons_ratio[held, None], place.shape[:2])
+        for (search, window), mine in zip(looks, elements, strict=True):
+            rows, (_, column) = np.searchsorted(held, mine), search.nodal.together or (every, ...)
+            components = np.moveaxis(stress[rows][:, :, column], -1, 0)
+            value, there = search.quantity(MaterialStress(*components, nu[rows])), place[rows]
+            yield np.where(_inside(there, window), value, -np.inf), there
 
-    best = _promising(points, triangles, rough, windows)
+    best = []
+    for search, of in groupby(looks, itemgetter(0)):
+        best += _promising(points, triangles, search.rough, [window for _, window in of])
     for count in COARSE:
         values = (value for value, _ in sampled(best, count))
         best = [_able(*pair, RISE / count**2) for pair in zip(best, values, strict=True)]
-    fine = sampled(best, FINE)
     on_surface = np.zeros(len(body.points), dtype=bool)
     on_surface[body.top.point] = True
-    surface = on_surface[nodal.nodes.point]
-    return [
-        _top(body, nodal, quantity, window, points, surface, elements, *values)
-        for window, elements, values in zip(windows, best, fine, strict=True)
-    ]
+    fixed = body, points, on_surface[every.nodes.point]
+    fine = zip(looks, best, sampled(best, FINE), strict=True)
+    return [_top(*fixed, *look, elements, *values) for look, elements, values in fine]
 
 
 def _able(elements: np.ndarray, value: np.ndarray, rise: float) -> np.ndarray:
@@ -207,11 +193,10 @@ def _promising(
 
 def _top(
     body: ElasticBody,
-    nodal: NodalStress,
-    quantity: Quantity,
-    window: Window | None,
     points: np.ndarray,
     surface: np.ndarray,
+    search: Search,
+    window: Window | None,
     best: np.ndarray,
     fine: np.ndarray,
     place: np.ndarray,
@@ -229,12 +214,15 @@ def _top(
     size = np.ptp(place[element], axis=0).max()
     sharing = np.unique(best[np.nonzero(high)[0][away < ALIKE * size]])
     nu = body.poissons_ratio[best[element]]
+    nodal = search.nodal
     once = nodal.nodes.around(sharing)
     for around, degree in ((nodal.nodes.around(once), 5), (once, 3)):
         patch = np.unique(nodal.nodes.triangles[around])
         if surface[patch].any():
             continue
-        smooth = _smooth_maximum(points[patch], nodal.at(patch), degree, nu, quantity, top_sample)
+        smooth = _smooth_maximum(
+            points[patch], nodal.at(patch), degree, nu, search.quantity, top_sample
+        )
         if smooth and _inside(np.array([smooth.x, smooth.z]), window):
             return smooth
     return top_sample

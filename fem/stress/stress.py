@@ -21,7 +21,7 @@ from fem.stress.recovery import (
 )
 from fem.stress.surface_load import SurfaceLoad, from_surface, tangent_on, to_surface
 
-Beside = Callable[[np.ndarray, np.ndarray], StressState]
+Beside = Callable[[np.ndarray, np.ndarray], Sequence[StressState]]
 
 
 @dataclass(frozen=True)
@@ -29,16 +29,17 @@ class FurtherStress:
     """c stresses `of` x and depth [m] [Pa], along a `surface` z(x) [m], not in the displacement."""
 
     surface: CubicSpline
-    of: tuple[Beside, ...]
+    of: Beside
 
     def at(self, place: np.ndarray) -> np.ndarray:
         """sx, sz, txz (…, c, 3) [Pa] at points (…, 2) [m]."""
-        flat = place.reshape(-1, 2)
-        x = flat[:, 0]
-        t, depth = tangent_on(self.surface, x), np.maximum(flat[:, 1] - self.surface(x), 0.0)
-        states = (stress(x, depth) for stress in self.of)
-        turned = [from_surface(t, state.sx, state.sz, -state.txz) for state in states]
-        return np.stack(turned, axis=1).reshape(*place.shape[:-1], len(self.of), 3)
+        x, z = place.reshape(-1, 2).T
+        states = self.of(x, np.maximum(z - self.surface(x), 0.0))
+        along = np.array([[state.sx, state.sz, -state.txz] for state in states]).T  # (n, 3, c)
+        near, turned = np.flatnonzero(along.any(axis=(1, 2))), np.zeros((len(x), len(states), 3))
+        t = tangent_on(self.surface, x[near])[:, None]
+        turned[near] = from_surface(t, *np.moveaxis(along[near], 1, 0))
+        return turned.reshape(*place.shape[:-1], *turned.shape[1:])
 
 
 @dataclass(frozen=True)
@@ -79,16 +80,16 @@ class NodalStress:
 
 
 def nodal_stresses(
-    displacement: np.ndarray, load: SurfaceLoad, beside: Sequence[Beside] | None = None
+    displacement: np.ndarray, load: SurfaceLoad, beside: Beside | None = None
 ) -> tuple[NodalStress, ...]:
     """Stresses under the displacements (n, c, 2) [m] due to a load's pressure and its sliding
     traction, one for each of c friction coefficients: together they cost little more than one.
 
     The load gives the stresses across the surface: on a flat one sz = -p and txz = -friction p
     exactly. The stress along the surface and all stresses below it are recovered from the
-    displacement (`fem.stress.recovery`). `beside` (c) gives what the hats leave out of the stresses
+    displacement (`fem.stress.recovery`). `beside` gives what the hats leave out of the c stresses
     [Pa] of the pressure that they stand for, at x [m] and depths [m] below the surface."""
-    further = beside and FurtherStress(load.surface, tuple(beside))
+    further = beside and FurtherStress(load.surface, beside)
     recovery = _LoadedRecovery(displacement, load, further)
     shape = recovery.nodes, recovery.nodes.of_triangles(load.body.poissons_ratio)
     every = NodalStress(
@@ -107,7 +108,7 @@ def nodal_stresses(
             lambda node: recovery.at(node)[:, column],
             lambda: recovery.estimate[:, column],
             replace(load.kinks, jump=load.kinks.jump[:, column]),
-            beside and FurtherStress(load.surface, tuple(beside[one])),
+            beside and FurtherStress(load.surface, lambda x, z: beside(x, z)[one]),
             (every, column),
         )
 

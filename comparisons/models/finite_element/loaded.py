@@ -27,7 +27,7 @@ from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_finite import FiniteLoadHistory
 from fem.nonlinear.press_plastic import LoadHistory, averaged_pressure, plastic_fields
 from fem.solver.mumps import FemError
-from fem.stress.maximum import Samples, highest_node, maxima, maximum
+from fem.stress.maximum import Search, highest_node, maxima
 from fem.stress.stress import NodalStress, at_nodes, evaluate_all
 
 # What is left of the contact conditions after the last increment of flow.
@@ -270,23 +270,21 @@ def stresses_of(
         moved = np.stack([pressed.moved] * len(frictions), axis=1)
         field = MeshField.of(body, frictions, nodal, moved, others)
     bounds = (*window.ends, window.z[-1])
-    shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
+    wanted = {
+        "tau1": (lambda stress: stress.tau1, asperities),
+        "txz": (lambda stress: np.abs(stress.txz), asperities),
+    }
+    if linear:
+        wanted["von_mises"] = (lambda stress: stress.von_mises(stress.poissons_ratio),)
     shown = [None] * len(frictions)
     if fields:
         shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
+    searches = [Search(stresses, *how) for stresses in nodal for how in wanted.values()]
+    found = iter(maxima(body, searches, bounds))
     for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):
-        samples = Samples(body, stresses)
-        searched = bounds, asperities, samples
-        highest_places = {
-            name: _borne(pressed, stresses, maxima(body, stresses, of, *searched))
-            for name, of in shears.items()
-        }
-        extremes = {name: Extremum.highest(most) for name, most in highest_places.items()}
-        if linear:
-            where = bounds, samples
-            mises = maximum(body, stresses, lambda s: s.von_mises(s.poissons_ratio), *where)
-        else:
-            mises = highest_node(body, stresses, pressed.across, bounds)
-        extremes["von_mises"] = mises
-        results.append(StressResult(friction, extremes, highest_places, on_window))
+        places = {name: _borne(pressed, stresses, next(found)) for name in wanted}
+        extremes = {name: Extremum.highest(most) for name, most in places.items()}
+        if places.pop("von_mises", None) is None:
+            extremes["von_mises"] = highest_node(body, stresses, pressed.across, bounds)
+        results.append(StressResult(friction, extremes, places, on_window))
     return tuple(results), field if fields else None

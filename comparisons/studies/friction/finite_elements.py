@@ -90,8 +90,8 @@ def _with_mesh_stress(
         pressure, traction = state.normal.pressure, state.traction
         load = SurfaceLoad(body, rough.hats, pressure, np.zeros(1), traction=traction)
         moved = rough.displacement_of(pressure, traction)
-        beside = [ends_stress(problem, slipped.grid, state)]
-        [nodal] = nodal_stresses(moved[:, None], load, beside)
+        beside = ends_stress(problem, slipped.grid, state)
+        [nodal] = nodal_stresses(moved[:, None], load, lambda x, z: [beside(x, z)])
         bulk = bulk_stress(problem, number) * nodal.nodes.of_triangles(stiffness)
         return nodal.plus(bulk[:, None] * np.array([1.0, 0.0, 0.0])), load
 

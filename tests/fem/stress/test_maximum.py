@@ -12,7 +12,7 @@ from analytic.material import Material
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
-from fem.stress.maximum import NEAR, Samples, maxima, maximum
+from fem.stress.maximum import NEAR, Search, maxima, maximum
 from fem.stress.stress import at_nodes, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
@@ -132,7 +132,8 @@ def test_each_cell_of_x_has_its_own_maximum(body):
     )
     nodal, ends, window = field(body, hills), (-0.25, 0.25), (-0.8, 0.8, 0.9)
     cells = [*zip((-0.8, *ends), (*ends, 0.8), strict=True)]
-    highest = maxima(body, nodal, lambda stress: stress.sx, window, (*ends, 0.9))
+    search = Search(nodal, lambda stress: stress.sx, (*ends, 0.9))
+    [highest] = maxima(body, [search], window)
     for k, (start, stop) in enumerate(cells[:2]):
         one = maximum(body, nodal, lambda stress: stress.sx, (start, stop, 0.9))
         assert highest[:, k] == pytest.approx((one.value, one.x, one.z))
@@ -158,12 +159,13 @@ def test_looking_where_an_estimate_is_high_finds_what_looking_everywhere_does(pr
             asked[node] = True
             return of(node)
 
-        largest = maxima(case.body, replace(there, at=at), quantity, window, cells)
+        search = Search(replace(there, at=at, together=None), quantity, cells)
+        [largest] = maxima(case.body, [search], window)
         assert 0.0 < asked.mean() < 0.5
-        expected = maxima(case.body, everywhere, quantity, window, cells)
-        samples = Samples(case.body, there)
-        for of in (tau1, quantity):  # what was looked for before makes no difference
-            shared = maxima(case.body, there, of, window, cells, samples)
+        [expected] = maxima(case.body, [Search(everywhere, quantity, cells)], window)
+        # what else is looked for makes no difference
+        searches = [Search(there, of, cells) for of in (tau1, quantity)]
+        _, shared = maxima(case.body, searches, window)
         np.testing.assert_array_equal(shared, largest)
         np.testing.assert_allclose(largest, expected, rtol=1e-9, atol=1e-9)
 
