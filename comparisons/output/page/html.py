@@ -36,13 +36,8 @@ def _environment(folder: Path) -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters |= {
-        "tight": tight,
-        "anchored": anchored,
-        "slug": slug,
-        "kind": lambda item: type(item).__name__,
-        "set_off": set_off,
-    }
+    made.filters |= {known.__name__: known for known in (tight, anchored, slug, set_off)}
+    made.filters["kind"] = lambda item: type(item).__name__
     made.globals["css"] = lambda *names: Markup(
         "\n".join(made.loader.get_source(made, name)[0] for name in names)
     )
