@@ -16,9 +16,7 @@ force and moment of the hats are its own: within 0.02 pitches for Hertz's contac
 pitches. There the stress at the surface under traction is right to 0.2 % of the largest in place of
 4 % (20 pitches to a half-width) or to 0.06 % in place of 2 % (80)."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -87,10 +85,6 @@ class EndStress:
                 change[:, near] += patch.parts(*at) - tree_stress(hats, *at)
         return change
 
-    def at(self, friction: ArrayLike) -> Callable[[ArrayLike, ArrayLike], StressState]:
-        """Stresses [Pa] at x, z [m] under p and q = friction * p; goes through pickle."""
-        return partial(self.stress, friction)
-
     def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
         """Stresses [Pa] at x, z [m] under p and q = friction * p."""
         return FrictionStress.of(self.parts(x, z)).at(friction)
@@ -99,27 +93,16 @@ class EndStress:
 def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> EndStress:
     """Curves for hats at uniform x_nodes (n,) [m] with pressures (n,) [Pa] and gaps (n,) [m], means
     over the hats. Patches of fewer than FEWEST nodes, and those that bend too much next to an end,
-    keep the stresses of their hats."""
+    keep the stresses of their hats. The others have the ends, near those that their gaps tell, at
+    which they have the hats' force and moment."""
     pitch = x_nodes[1] - x_nodes[0]
     hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
     nodal = nodal_values(hats, pressure)
     touching, ends = contact_ends(hats, pressure, gap)
     wide = np.ptp(touching, axis=1) + 1 >= FEWEST
-    how = x_nodes, pressure, nodal
-    patches = _balanced(touching[wide], ends[wide], *how) if wide.any() else ()
-    return EndStress(x_nodes, pressure, tuple(patches))
-
-
-def _balanced(
-    touching: np.ndarray,
-    ends: np.ndarray,
-    x_nodes: np.ndarray,
-    pressure: np.ndarray,
-    nodal: np.ndarray,
-) -> Iterator[SmoothPatch]:
-    """Curves on patches from node to node (k, 2), with ends, near these (k, 2), at which each has
-    the hats' force and moment; of patches with such a curve."""
-    (first, last), pitch = touching.T, x_nodes[1] - x_nodes[0]
+    if not wide.any():
+        return EndStress(x_nodes, pressure, ())
+    (first, last), ends = touching[wide].T, ends[wide]
     count, middle = last - first + 1, 0.5 * (x_nodes[first] + x_nodes[last])
     patch, node = _runs(first, count)
     force = pitch * np.bincount(patch, pressure[node])
@@ -146,10 +129,10 @@ def _balanced(
     inner = np.arange(DISTURBED - len(UNLIKE), DISTURBED)
     inner = np.stack([first[:, None] + inner, last[:, None] - inner], axis=1)
     apart = np.abs(curve(x_nodes[inner], np.arange(len(first))[:, None, None]) - nodal[inner])
-    alike = np.all(apart <= UNLIKE * nodal[inner], axis=(1, 2))
-    for k in np.flatnonzero(alike):
-        series = dst(values[patch == k], type=1) / (terms[k] + 1)
-        yield SmoothPatch(int(first[k]), int(last[k]), tuple(used[k].tolist()), series)
+    alike = np.flatnonzero(np.all(apart <= UNLIKE * nodal[inner], axis=(1, 2)))
+    series = (dst(values[patch == k], type=1) / (terms[k] + 1) for k in alike)
+    known = first[alike].tolist(), last[alike].tolist(), map(tuple, used[alike].tolist()), series
+    return EndStress(x_nodes, pressure, tuple(map(SmoothPatch, *known)))
 
 
 def _runs(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

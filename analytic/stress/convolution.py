@@ -40,21 +40,34 @@ def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray
     [Pa], one a grid step, the first of them `start` steps from the node 0."""
     first, last = grid.first - start, grid.last - start
     reach = max(len(source) - 1 - first, last)  # no wrapped value reaches the points read
-    size, place = next_fast_len(2 * reach + 1, real=True), max(0, -first)
-    points = slice(first + place, last + place + 1, grid.stride)
+    fold = grid.stride & -grid.stride
+    size = fold * next_fast_len(-(-(2 * reach + fold) // fold), real=True)
+    place = max(0, -first)
+    place += -(first + place) % fold
+    points = slice((first + place) // fold, (last + place) // fold + 1, grid.stride // fold)
     placed = np.zeros(size)
     placed[place : place + len(source)] = source
-    spectrum = rfft(placed)
+    spectrum = rfft(placed) / fold
     turned = (spectrum, spectrum, 1j * spectrum, 1j * spectrum)
     halves = half_line(grid.z / grid.pitch, reach, grid.subdivisions, grid.element)
     levels, step = parts.shape[1], max(1, _BLOCK // size)
 
     def fill(block: slice) -> None:
         for row, kernel in enumerate(mirrored_spectra(halves(block), size)):
-            stress = irfft(kernel * turned[row], size, overwrite_x=True)
+            stress = irfft(_folded(kernel * turned[row], fold), size // fold, overwrite_x=True)
             parts[row, block] = stress[:, points]
 
     for_each(fill, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
+
+
+def _folded(spectra: np.ndarray, fold: int) -> np.ndarray:
+    """Times `fold`, 1 or even, the spectra of every such member of real sequences; from theirs."""
+    if fold == 1:
+        return spectra
+    count, ring = len(spectra), 2 * (spectra.shape[1] - 1) // fold
+    ways = spectra[:, :-1], spectra[:, :0:-1]  # up from no wave, and down from the shortest
+    up, down = (way.reshape(count, -1, ring)[:, :, : ring // 2 + 1].sum(axis=1) for way in ways)
+    return up + down.conj()
 
 
 def half_line(

@@ -1,7 +1,6 @@
 """Largest stresses of a field, and where they stand between the points of its grid."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise, product
 
 import numpy as np
@@ -9,7 +8,7 @@ import numpy as np
 from analytic.stress.field import StressField
 from analytic.stress.points import friction_stress_at
 from analytic.stress.potential import Element
-from analytic.stress_state import Extremum, StressState
+from analytic.stress_state import StressState
 
 NEAR = 0.5  # of the largest value: cells whose own are below it are not followed off the grid
 STARTS = 4  # local maxima of the grid that are followed
@@ -23,17 +22,6 @@ _FARTHEST = 1.5  # steps that a centre may move in a round
 _MOST_ROUNDS = 30  # 6 where no ridge is walked along, up to 11 where one is
 
 
-@dataclass(frozen=True)
-class StressMaxima:
-    """Largest principal shear, largest amount of the orthogonal shear, largest von Mises."""
-
-    tau1: Extremum
-    txz_abs: Extremum
-    von_mises: Extremum
-    # by the names of the first two, in each cell of x: value, x and z (3, k + 1)
-    cells: dict[str, np.ndarray]
-
-
 def stress_maxima(
     x_nodes: np.ndarray,
     pressure: np.ndarray,
@@ -43,9 +31,11 @@ def stress_maxima(
     *,
     beside: Callable[[np.ndarray, np.ndarray, np.ndarray], StressState] | None = None,
     cells: Sequence[float] = (),
-) -> dict[float, StressMaxima]:
-    """By friction coefficient the three maxima [Pa] inside the window of the fields, whose points
-    are the same, under their loads, given as to `stress_at`.
+) -> dict[float, dict[str, np.ndarray]]:
+    """By friction coefficient and name, "tau1", "txz" and "von_mises", the largest principal shear,
+    amount of the orthogonal shear and von Mises stress: value [Pa], x and z [m] (3, k + 1) in each
+    cell of x; of von Mises once, in the first. Inside the window of the fields, whose points are
+    the same, under their loads, given as to `stress_at`.
 
     `beside` gives further stresses [Pa] by friction coefficient (k, 1), x and z (k, n) [m], which
     the fields have already.
@@ -57,20 +47,20 @@ def stress_maxima(
     cell where the quantity is smooth, and the value never below the field's own largest. A field
     coarser than the asperities can miss peaks that it does not show.
     """
-    quantities = (
-        lambda stress: stress.tau1,
-        lambda stress: np.abs(stress.txz),
-        lambda stress: stress.von_mises(poissons_ratio),
-    )
+    quantities = {
+        "tau1": lambda stress: stress.tau1,
+        "txz": lambda stress: np.abs(stress.txz),
+        "von_mises": lambda stress: stress.von_mises(poissons_ratio),
+    }
     searches = list(product(fields, quantities))
     grid, count = next(iter(fields.values())), len(cells) + 1
     largest = np.full((len(searches), 3, count), np.nan)
     largest[:, 0] = 0.0
     rows, columns, owners, bounds = [], [], [], []  # an owner is a search in a cell
-    for index, (friction, quantity) in enumerate(searches):
-        values = quantity(fields[friction].stress)
+    for index, (friction, name) in enumerate(searches):
+        values = quantities[name](fields[friction].stress)
         row, column = _local_maxima(values)
-        inner = cells if quantity in quantities[:2] else ()
+        inner = () if name == "von_mises" else cells
         cell, highest = np.searchsorted(inner, grid.x), values.max()
         edges = [0, *np.searchsorted(grid.x, inner, side="right"), len(grid.x)]
         for k, (start, stop) in enumerate(pairwise(edges)):
@@ -96,7 +86,7 @@ def stress_maxima(
         stress = friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
         stress = stress if beside is None else stress.plus(1.0, beside(friction, x, z))
         value = np.empty(place.shape[:2])
-        for index, quantity in enumerate(quantities):
+        for index, quantity in enumerate(quantities.values()):
             mine = owner // count % len(quantities) == index
             value[mine] = quantity(StressState(*stress.parts[:, mine]))
         return value
@@ -106,11 +96,8 @@ def stress_maxima(
         mine = np.flatnonzero(owners == one)
         best = mine[np.argmax(top[mine])]
         largest[one // count, :, one % count] = top[best], *place[best]
-    by_friction = largest.reshape(len(fields), len(quantities), 3, count)
-    return {
-        friction: StressMaxima(*map(Extremum.highest, own), {"tau1": own[0], "txz_abs": own[1]})
-        for friction, own in zip(fields, by_friction, strict=True)
-    }
+    by_friction = zip(fields, largest.reshape(len(fields), len(quantities), 3, count), strict=True)
+    return {friction: dict(zip(quantities, own, strict=True)) for friction, own in by_friction}
 
 
 def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -22,7 +22,7 @@ the difference is the same everywhere (`held_along`).
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -119,9 +119,6 @@ class PeriodicRest:
         """See `ImageStress`; all but `along`."""
         return self.ends(x, z) + self.images.parts(x, z)
 
-    def at(self, friction: ArrayLike) -> Callable[[ArrayLike, ArrayLike], StressState]:
-        """Stresses [Pa] at x, z [m] under p and q = friction * p."""
-        return partial(self.stress, friction)
-
     def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
+        """Stresses [Pa] at x, z [m] under p and q = friction * p."""
         return FrictionStress.of(self.parts(x, z), self.along).at(friction)

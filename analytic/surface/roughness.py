@@ -64,11 +64,13 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
     z = heights - level
     square = np.sum(weights * z**2)
     cube, fourth = np.sum(weights * z**3), np.sum(weights * z**4)
+    ends = np.concatenate((curve.x[:1], crossings(curve, level), curve.x[-1:]))
+    area = curve.antiderivative()(ends) - level * (ends - ends[0])  # exact between the crossings
     slope = curve.derivative(1)
     steepest = slope(np.append(curve.x, crossings(curve.derivative(2))))
     return Roughness(
         mean=mean,
-        ra=mean_deviation(curve, level),
+        ra=float(np.sum(np.abs(np.diff(area))) / (ends[-1] - ends[0])),
         rq=float(np.sqrt(square)),
         rsk=float(cube / square**1.5) if square > 0.0 else 0.0,
         rku=float(fourth / square**2) if square > 0.0 else 0.0,
@@ -76,13 +78,6 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
         rms_slope=float(np.sqrt(np.sum(weights * slope(points) ** 2))),
         max_slope=float(np.max(np.abs(steepest))),
     )
-
-
-def mean_deviation(curve: PPoly, level: float) -> float:
-    """Mean of |height - level| [m] of a piecewise cubic, exact between its crossings of `level`."""
-    ends = np.concatenate((curve.x[:1], crossings(curve, level), curve.x[-1:]))
-    area = curve.antiderivative()(ends) - level * (ends - ends[0])
-    return float(np.sum(np.abs(np.diff(area))) / (ends[-1] - ends[0]))
 
 
 def turning_points(curve: PPoly) -> np.ndarray:

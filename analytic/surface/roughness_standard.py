@@ -11,17 +11,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PPoly
+from scipy.interpolate import PPoly
 
 from analytic.profile import Profile
 from analytic.surface.filters import LONGEST_CUTOFF, REACH, SHORTEST_CUTOFF, check_cutoff, filtered
-from analytic.surface.roughness import (
-    crossings,
-    figures_of,
-    mean_deviation,
-    stretch_of,
-    turning_points,
-)
+from analytic.surface.roughness import crossings, figures_of, stretch_of, turning_points
 
 SECTIONS = 5
 # ISO 4288:1996, table 1: largest Ra [m] of a cut-off [m]; ISO 3274:1996, table 1: its lambda_s [m].
@@ -63,16 +57,16 @@ def standard_roughness(
 
     profile       without its form, unfiltered
     short_cutoff  [m] None: short waves stay"""
-    whole, ends = _evaluated(profile, cutoff, short_cutoff)
-    curve = stretch_of(whole, ends[0], ends[-1])
-    figures = figures_of(curve, level=0.0)
-    pieces = [stretch_of(whole, a, b) for a, b in pairwise(ends)]
+    curve = _evaluated(profile, cutoff, short_cutoff)
+    sections = round((curve.x[-1] - curve.x[0]) / cutoff)
+    ends = curve.x[0] + cutoff * np.arange(sections + 1)
+    figures, pieces = figures_of(curve, 0.0), [stretch_of(curve, a, b) for a, b in pairwise(ends)]
     rz = float(np.mean([np.ptp(piece(turning_points(piece))) for piece in pieces]))
     return StandardRoughness(
         cutoff=cutoff,
         short_cutoff=short_cutoff,
-        sections=len(ends) - 1,
-        start=float(ends[0]),
+        sections=sections,
+        start=float(curve.x[0]),
         **{name: getattr(figures, name) for name in ("ra", "rq", "rsk", "rku", "rt")},
         rz=rz,
         rdq=figures.rms_slope,
@@ -80,10 +74,8 @@ def standard_roughness(
     )
 
 
-def _evaluated(
-    profile: Profile, cutoff: float, short_cutoff: float | None = None
-) -> tuple[CubicSpline, np.ndarray]:
-    """The filtered profile, and where its section lengths begin and end (sections + 1,) [m]."""
+def _evaluated(profile: Profile, cutoff: float, short_cutoff: float | None) -> PPoly:
+    """The filtered profile on its section lengths."""
     check_cutoff(profile, cutoff)
     sections = min(SECTIONS, int((profile.length / cutoff - 1.0) * (1.0 + 1e-9)))
     length = sections * cutoff
@@ -92,8 +84,7 @@ def _evaluated(
     margin = REACH * (cutoff + (short_cutoff or 0.0)) + END_SAMPLES * profile.spacing
     near = (profile.x >= start - margin) & (profile.x <= start + length + margin)
     part = Profile(profile.x[near], profile.height[near])
-    ends = start + cutoff * np.arange(sections + 1)
-    return filtered(part, cutoff, short_cutoff).spline(), ends
+    return stretch_of(filtered(part, cutoff, short_cutoff).spline(), start, start + length)
 
 
 def standard_cutoff(profile: Profile) -> float:
@@ -109,8 +100,7 @@ def standard_cutoff(profile: Profile) -> float:
                 f"cut-off of {1e3 * cutoff:g} mm, which its roughness asks for; allowed is a "
                 "cut-off in figures"
             )
-        whole, ends = _evaluated(profile, cutoff)
-        if mean_deviation(stretch_of(whole, ends[0], ends[-1]), 0.0) <= most:
+        if figures_of(_evaluated(profile, cutoff, None), 0.0).ra <= most:
             return cutoff
     raise ValueError(
         "no cut-off of the standard (0.08 mm to 8 mm, Ra up to 80 um) suits the trace; "

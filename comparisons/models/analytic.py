@@ -8,7 +8,7 @@ is a convolution, and its stresses are those of a half-plane and what the base a
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import reduce
+from itertools import chain
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -130,7 +130,7 @@ class _Side:
 
     def beside(self, friction: ArrayLike, x: np.ndarray, z: np.ndarray) -> StressState:
         """Stresses beside those of the half-plane's hats."""
-        rest = self.rest.at(friction)(x, z)
+        rest = self.rest.stress(friction, x, z)
         if self.added is None:
             return rest
         return rest.plus(1.0, self.added.at(friction, x, z, self.below))
@@ -167,14 +167,12 @@ def _stresses(
     ]
     shown = field_on(level, problem.window, sides[0].rest) if fields else None
     for friction in frictions:
-        of_sides = [by_friction[friction] for by_friction in largest]
-        maxima = {
+        first, *others = (by_friction[friction] for by_friction in largest)
+        for name, of_side in chain.from_iterable(map(dict.items, others)):
             # of each asperity (3, k) the side with the larger value
-            name: reduce(lambda a, b: np.where(b[0] > a[0], b, a), (s.cells[key] for s in of_sides))
-            for name, key in (("tau1", "tau1"), ("txz", "txz_abs"))
-        }
-        extremes = {name: Extremum.highest(cells) for name, cells in maxima.items()}
-        extremes["von_mises"] = max((one.von_mises for one in of_sides), key=lambda e: e.value)
+            first[name] = np.where(of_side[0] > first[name][0], of_side, first[name])
+        extremes = {name: Extremum.highest(cells) for name, cells in first.items()}
+        maxima = {name: first[name] for name in ("tau1", "txz")}
         field = None if shown is None else shown.at(friction).stress
         yield StressResult(friction, extremes, maxima, field)
 

@@ -97,7 +97,8 @@ def largest_tau1(
     stress = field.stress.plus(1.0, beside(*np.meshgrid(field.x, field.z)))
     fields, nu = {friction: replace(field, stress=stress)}, problem.scene.body.poissons_ratio
     further = {"beside": lambda _, x, z: beside(x, z)}
-    return stress_maxima(grid.x, pressure, fields, nu, **further)[friction].tau1
+    maxima = stress_maxima(grid.x, pressure, fields, nu, **further)[friction]
+    return Extremum.highest(maxima["tau1"])
 
 
 def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> FrictionField:

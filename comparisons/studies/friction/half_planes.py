@@ -21,7 +21,6 @@ from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.numerics import runs_of
-from analytic.stress.elements import FrictionStress
 from analytic.stress.fatigue import ruiz, smith_watson_topper
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import Extremum, StressState
@@ -265,8 +264,7 @@ def ends_stress(problem: Problem, grid: HatGrid, state: SlipState, bulk: float =
     ends, share = ends_of(problem, grid, state.normal), traction_share(state, grid)
 
     def stress(x: np.ndarray, z: np.ndarray) -> StressState:
-        parts = FrictionStress.of(ends.parts(x, z))
-        both = parts.normal.plus(share(x), parts.traction)
-        return replace(both, sx=both.sx + bulk)
+        loaded = ends.stress(share(x), x, z)
+        return replace(loaded, sx=loaded.sx + bulk)
 
     return stress

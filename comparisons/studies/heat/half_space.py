@@ -197,11 +197,10 @@ def surface_places(problem: Problem, level: Level) -> np.ndarray:
 def half_plane_stress(problem: Problem, level: Level) -> HeatedStress:
     """Stress of the half-plane on a level of its own."""
     friction, grid, solution = problem.largest_friction, level.grid, level.solution
-    close = ends_of(problem, grid, solution).at(friction)
-    thermal = _thermal(problem, level)
+    close, thermal = ends_of(problem, grid, solution), _thermal(problem, level)
 
     def beside(x: np.ndarray, z: np.ndarray) -> StressState:
-        return close(x, z).plus(1.0, thermal(x, z))
+        return close.stress(friction, x, z).plus(1.0, thermal(x, z))
 
     tau1 = largest_tau1(problem, grid, solution.pressure, friction, beside)
     x = surface_places(problem, level)

@@ -26,7 +26,8 @@ def errors(elements, depth, friction=0.5, offset=0.0):
     places = np.arange(0.1, 3.0, 0.1) * h
     x, z = np.concatenate([-1.0 + places, 1.0 - places]), depth * h
     hats = stress_at(grid.x, solution.pressure, friction, x, z)
-    both = hats.plus(1.0, end_stress(grid.x, solution.pressure, solution.gap).at(friction)(x, z))
+    ends = end_stress(grid.x, solution.pressure, solution.gap)
+    both = hats.plus(1.0, ends.stress(friction, x, z))
     exact = hertz_stress(HERTZ, x, z, friction).tau1
     return [np.abs(stress.tau1 - exact).max() / (friction * P0) for stress in (hats, both)]
 
