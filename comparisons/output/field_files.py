@@ -193,10 +193,8 @@ def _add_array(
     array = ElementTree.SubElement(parent, "DataArray", how | more)
     content = values.astype(values.dtype.newbyteorder("<")).tobytes()
     # LZMA makes of rounded numbers a fifth less and takes eight times as long; higher levels of
-    # zlib make them no smaller, nor does a search for what comes again in stresses of a rough body
-    strategy = zlib.Z_HUFFMAN_ONLY if parent.tag == "PointData" else zlib.Z_DEFAULT_STRATEGY
-    packer = zlib.compressobj(1, strategy=strategy)
-    block = packer.compress(content) + packer.flush()
+    # zlib make them no smaller
+    block = zlib.compress(content, 1)
     head = np.array([1, len(content), 0, len(block)], dtype="<u4")  # blocks, their size, rest
     array.text = (base64.b64encode(head) + base64.b64encode(block)).decode()
     return array

@@ -21,7 +21,6 @@ from comparisons.output.result import FILE as RESULT
 from comparisons.output.result import result_of, write_result
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh
-from meshes.msh_file import write_msh
 
 
 def write_files(outcome: Run, callback: ProgressCallback) -> bool:
@@ -74,6 +73,8 @@ def _write_level(here: Here, folder: Path, name: str) -> None:
 
 def write_mesh(path: Path, outcome: Run, mesh: BlockMesh) -> None:
     """mesh.msh: what was solved on, and the scene that it was made for."""
+    from meshes.msh_file import write_msh
+
     problem = outcome.problem
     said = {"title": problem.scene.title, "units": "m", "scene": scene_text(problem)}
     write_msh(mesh, path, said)
