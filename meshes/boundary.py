@@ -150,13 +150,14 @@ def outline(spec: BlockSpec) -> Outline:
 
 def joined(lines: list[np.ndarray], regions: tuple[tuple[int, ...], ...]) -> Outline:
     """Outline of lines (k, 2) [m] that meet at their ends."""
-    points, ends, numbers = [], {}, []
+    points, ends, numbers, count = [], {}, [], 0
     for line in lines:
-        number = np.empty(len(line), dtype=np.int64)
-        for k, point in enumerate(map(tuple, line.tolist())):
-            inner = 0 < k < len(line) - 1
-            number[k] = len(points) if inner else ends.setdefault(point, len(points))
-            if number[k] == len(points):
-                points.append(point)
+        start, stop = (tuple(line[k].tolist()) for k in (0, -1))
+        new = np.ones(len(line), dtype=bool)
+        new[0], new[-1] = start not in ends, stop not in ends
+        number = count + np.cumsum(new) - 1
+        number[0], number[-1] = ends.setdefault(start, number[0]), ends.setdefault(stop, number[-1])
+        points.append(line[new])
         numbers.append(number)
-    return Outline(np.array(points), tuple(numbers), regions)
+        count += len(points[-1])
+    return Outline(np.concatenate(points), tuple(numbers), regions)

@@ -8,7 +8,7 @@ size_jump             largest ratio of the sizes (square root of area) of two ne
 
 import numpy as np
 
-from meshes.block import EDGES, BlockMesh, MeshError, cross, real_points, unique_edges
+from meshes.block import EDGES, BlockMesh, MeshError, cross, real_points
 from meshes.coating import stretched
 
 LEAST_ANGLE_DEGREES = 15.0
@@ -50,9 +50,9 @@ def measure(points: np.ndarray, triangles: np.ndarray) -> dict:
     double_area = cross(side[:, 0], -side[:, 2])
     angle = np.degrees(np.arctan2(np.abs(cross(side, before)), (side * before).sum(axis=2)))
 
-    _, edge_of = unique_edges(triangles[:, :3])
-    order = np.argsort(edge_of.ravel(), kind="stable")
-    edge, element = edge_of.ravel()[order], order // 3
+    middle = triangles[:, 3:].ravel()  # one to an edge
+    order = np.argsort(middle, kind="stable")
+    edge, element = middle[order], order // 3
     shared = np.flatnonzero(edge[1:] == edge[:-1])
     size = np.sqrt(np.abs(double_area))
     pair = np.sort(np.column_stack([size[element[shared]], size[element[shared + 1]]]), axis=1)

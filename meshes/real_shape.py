@@ -96,11 +96,9 @@ def spread_bulges(bulge: np.ndarray, edge_of: np.ndarray) -> np.ndarray:
     A bulge b of a top edge of length s changes the determinant at its ends by 2 b s, not at the
     third corner; with the fraction f of b on the other two edges by (1 - 2 f) and 2 f of that.
     These are equal at f = 1/4, which allows twice the bulge before inversion."""
-    extra = np.zeros(len(bulge))
-    for k in range(3):
-        for other in (edge_of[:, k - 1], edge_of[:, k - 2]):
-            np.add.at(extra, other, 0.25 * bulge[edge_of[:, k]])
-    return extra
+    own = 0.25 * bulge[edge_of]
+    others = own.sum(axis=1, keepdims=True) - own
+    return np.bincount(edge_of.ravel(), others.ravel(), len(bulge))
 
 
 def refuse_inverted(points: np.ndarray, triangles: np.ndarray, top: np.ndarray) -> None:
