@@ -88,13 +88,17 @@ class DeformedSurface:
         edge = np.searchsorted(self.x[2:-1:2], x)
         return edge, place_on(self.edges[edge], x)
 
+    def on_edges(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The edges' nodes (3, k) among the surface's and their shape functions at x (k,) [m]."""
+        edge, t = self.edge(x)
+        return 2 * edge + np.arange(3)[:, None], edge_shapes(t).T
+
     def __call__(
         self, x: np.ndarray, on: tuple[np.ndarray, np.ndarray] | None = None
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """r [m], its slope without jumps, and that one's [1/m], at x (k,) [m] `on` the edges."""
-        edge, t = on or self.edge(x)
-        node = 2 * edge[:, None] + np.arange(3)
-        rise = (edge_shapes(t) * self.z[node]).sum(axis=1)
+        node, shape = on or self.on_edges(x)
+        rise = np.einsum("ak,ak->k", shape, self.z[node])
         before = np.clip(np.searchsorted(self.middle, x) - 1, 0, len(self.middle) - 2)
         bend = np.diff(self.chord)[before] / np.diff(self.middle)[before]
         return rise, self.chord[before] + bend * (x - self.middle[before]), bend
@@ -116,18 +120,17 @@ class PairContact:
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone: cheaper."""
-        under, (_, z), (edge, t), (rise, slope, _), deformed, surface = self._met(displacement)
-        node, part = 2 * edge + np.arange(3)[:, None], edge_shapes(t).T
-
+        under, (_, z), (node, part), (rise, slope, _), deformed, surface = self._met(displacement)
         column, hat = under.column + 1, under.hat * under.weight  # with the feet, which bear none
-        load = (np.pad(pressure, 1)[column][..., None] * hat).sum(0)
-        gap = np.bincount(column.ravel(), (hat * (z + rise)).sum(-1).ravel(), len(self._hats))
+        load = np.einsum("he,heg->eg", np.pad(pressure, 1)[column], hat)
+        opening = np.einsum("heg,eg->he", hat, z + rise)
+        gap = np.bincount(column.ravel(), opening.ravel(), len(self._hats))
         force = np.zeros((self._count, 2))
         along, down = load * (slope + self._friction), load * (1.0 - self._friction * slope)
         for axis, value, back in ((0, along, -along), (1, down, down)):
-            on_body = (under.shape * value).sum(-1).ravel()
+            on_body = np.einsum("aeg,eg->ae", under.shape, value)
             force[self._body.surface.point, axis] = np.bincount(
-                under.node.ravel(), on_body, len(deformed.x)
+                under.node.ravel(), on_body.ravel(), len(deformed.x)
             )
             force[self._first + self._roller.surface.point, axis] = np.bincount(
                 node.ravel(), (part * back.ravel()).ravel(), len(surface.x)
@@ -186,12 +189,13 @@ class PairContact:
         return ContactTerms(gap, gradient, force.tocsr(), stiffness.tocsr())
 
     def _met(self, displacement: np.ndarray) -> tuple:
-        """Points under hats, their x and z [m], where on the roller's edges they are, its height,
-        slope and bend there; the surfaces of both."""
+        """Points under hats, their x and z [m], nodes and shape functions of the roller's edges,
+        its height, slope and bend there; the surfaces of both."""
         surface, cuts, deformed = self._surfaces(displacement)
         under = hat_points(self._body.surface, self._hats, cuts)
-        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (deformed.x, deformed.z))
-        on = surface.edge(x.ravel())
+        place = deformed.x[under.node], deformed.z[under.node]
+        x, z = (np.einsum("aeg,ae->eg", under.shape, at) for at in place)
+        on = surface.on_edges(x.ravel())
         opposite = [array.reshape(x.shape) for array in surface(x.ravel(), on)]
         return under, (x, z), on, opposite, deformed, surface
 
