@@ -84,7 +84,7 @@ def press_finitely(
     Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
     Raises FemError if it does not converge, ValueError for a load that the hats cannot bear.
     """
-    contact = FiniteContact(body, hats, roller, start, friction)
+    contact = FiniteContact(FiniteElementCompliance(body, hats), roller, start, friction)
     return contact.by_newton(load, approach, hardness)
 
 

@@ -32,6 +32,8 @@ class FiniteElementCompliance:
         self.count = len(hats) - (1 if self._periodic else 2)
         self.normal = hat_forces(body.surface, hats, periodic=self._periodic)
         self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
+        # pressure and friction of the latest displacement, and that
+        self._latest: tuple[tuple, np.ndarray] | None = None
 
     @cached_property
     def tangential(self) -> csr_matrix:
@@ -54,8 +56,12 @@ class FiniteElementCompliance:
         return self.body.solve(self._load(self.normal @ pressure + self.tangential @ traction))
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
-        """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
-        return self.body.solve(self.load(pressure, friction))
+        """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]. The latest is
+        known: what follows a contact begins with its own."""
+        asked, latest = (pressure, friction), self._latest
+        if latest is None or not all(map(np.array_equal, asked, latest[0])):
+            self._latest = latest = asked, self.body.solve(self.load(pressure, friction))
+        return latest[1]
 
     def load(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] of a pressure (count,) [Pa] and its sliding traction."""

@@ -114,25 +114,23 @@ class FiniteDeformation:
 class FiniteContact:
     """A body and a roller at finite strains, each by its own law, before they are pressed.
 
-    hats       (count + 2,) [m] nodes of the pressure on the undeformed surface, with outer feet
+    compliance of the body on the hats, (count + 2,) [m] on the undeformed surface, without flow
     roller     a rigid one's shape, `fem.contact.rigid_roller.circle(radius)`; or an elastic one on
                the same hats, its body in its own frame, z into it, with its shape as the boundary
     start      (count,) [Pa] linear pressure under the same load
     friction   q = friction p along the common tangent, towards +x on the body
     disc       whether an elastic roller is one, its rim the boundary with the contact
-    gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
-    compliance of the body on the hats, without flow"""
+    gap        (count,) [m^2] of the undeformed bodies, weighted by each hat"""
 
     def __init__(
         self,
-        body: ElasticBody,
-        hats: np.ndarray,
+        compliance: FiniteElementCompliance,
         roller: Roller | FiniteElementCompliance,
         start: np.ndarray,
         friction: float = 0.0,
         disc: bool = False,
     ) -> None:
-        compliance = FiniteElementCompliance(body, hats)
+        body, hats = compliance.body, compliance.hats
         self.body, self.hats, self.friction, self.start = body, hats, friction, start
         self.roller, self.elastic, self.compliance = roller, (body,), compliance
         self._disc = disc
@@ -284,7 +282,9 @@ class FiniteCompliance:
 
     def __init__(self, contact: FiniteContact) -> None:
         self._contact, self.displacement = contact, contact.linear
+        # the last pressure, and the forces (2n,) [N/m] inside the bodies under it
         self._last: np.ndarray | None = None
+        self._internal: np.ndarray | None = None
         self._secants: list[tuple[np.ndarray, np.ndarray]] = []
         self.steps, self.left, self.borne = 0, np.inf, 0.0
 
@@ -297,25 +297,29 @@ class FiniteCompliance:
             if change == 0.0:  # as accurate as it was asked for
                 return contact.contact.loaded(self.displacement, pressure)[0] - contact.gap
             wanted = float(np.clip(SETTLED * change, RESIDUAL, MOST_LEFT))
-        self._last, moved, before = pressure, self.displacement, None
+        self._last, moved, internal, before = pressure, self.displacement, self._internal, None
         soft, free = contact.response.softness, ~contact.response.held.ravel()
         for _ in range(MOST_CORRECTIONS):
             moved, _ = contact.set_back(moved, pressure)
             gap, applied = contact.contact.loaded(moved, pressure)
-            left = np.where(free, applied - contact.response.force(moved).ravel(), 0.0)
+            if internal is None:  # of the last pressure's displacement they are known
+                internal = contact.response.force(moved).ravel()
+            left = np.where(free, applied - internal, 0.0)
             size = np.linalg.norm(soft * np.where(free, applied, 0.0))
             rest = float(np.linalg.norm(soft * left) / size)
             if rest <= wanted:
-                self.displacement, self.left = moved, rest
+                self.displacement, self._internal, self.left = moved, internal, rest
                 self.borne = contact.vertical(applied)
                 return gap - contact.gap
             pieces = np.split(left.reshape(-1, 2), [len(contact.body.nodes)])
             bodies = zip(contact.elastic, pieces, strict=False)
             step = np.vstack([body.solve(piece) for body, piece in bodies]).ravel()
+            reached = moved.ravel() + step
             if before is not None:
-                self._learn(moved.ravel() - before[0], step - before[1])
-            before = moved.ravel(), step
-            moved = moved + self._onward(step).reshape(-1, 2)
+                self._learn(reached - before[0], step - before[1])
+            before = reached, step
+            onward = reached - sum((known @ step) * led for known, led in self._secants)
+            moved, internal = onward.reshape(-1, 2), None
             self.steps += 1
         raise FemError(f"forces of {rest:.1e} are left after {MOST_CORRECTIONS} corrections")
 
@@ -329,8 +333,8 @@ class FiniteCompliance:
         return NonlinearSolution(state, gap, ((self.left,),), self.steps)
 
     def _learn(self, move: np.ndarray, change: np.ndarray) -> None:
-        """Keep what a move (2n,) [m] has changed in the correction (2n,) [m], apart from what is
-        known: the changes are orthogonal and of size one."""
+        """Keep what a move (2n,) [m] of the corrected displacement has changed in the correction
+        (2n,) [m], apart from what is known: the changes are orthogonal and of size one."""
         whole = np.linalg.norm(change)
         for known, led in self._secants:
             amount = known @ change
@@ -338,14 +342,6 @@ class FiniteCompliance:
         size = np.linalg.norm(change)
         if size > SECANT_RANK * whole:
             self._secants = [*self._secants[1 - SECANTS :], (change / size, move / size)]
-
-    def _onward(self, step: np.ndarray) -> np.ndarray:
-        """The next move (2n,) [m] from a correction (2n,) [m] and the secants."""
-        left, move = step, np.zeros_like(step)
-        for known, led in self._secants:
-            amount = known @ left
-            left, move = left - amount * known, move - amount * led
-        return move + left
 
 
 def _circle(x: np.ndarray, z: np.ndarray) -> tuple[float, float, float]:

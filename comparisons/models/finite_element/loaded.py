@@ -204,7 +204,7 @@ def _unpressed_contact(linear: SmallStrainContact) -> FiniteContact:
     problem, rough, start = linear.problem, linear.operator.rough, linear.solution.pressure
     is_rigid, friction = problem.scene.roller.rigid, problem.scene.load.friction[0]
     roller = roller_of(problem) if is_rigid else linear.operator.parts[1].compliance
-    return FiniteContact(rough.body, rough.hats, roller, start, friction, is_disc(problem))
+    return FiniteContact(rough, roller, start, friction, is_disc(problem))
 
 
 def finite_contact(linear: SmallStrainContact) -> FiniteDeformation:

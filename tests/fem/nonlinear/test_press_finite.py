@@ -67,7 +67,8 @@ def touching(body, curvature, friction=0.0, roller=None):
     """Contact on half-width 1 of linear bodies, the load [N/m] and the peak pressure [Pa]."""
     peak = 0.5 * METAL.plane_strain_modulus * curvature / (1 + (roller is not None))
     shape = roller or circle(1.0 / curvature)
-    return FiniteContact(body, HATS, shape, peak * HERTZ, friction), 0.5 * np.pi * peak, peak
+    contact = FiniteContact(FiniteElementCompliance(body, HATS), shape, peak * HERTZ, friction)
+    return contact, 0.5 * np.pi * peak, peak
 
 
 @pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.2)])
@@ -282,7 +283,7 @@ def test_a_cylinder_sinks_into_a_nearly_rigid_metal():
     radius: between two hats that touch they hardly rise."""
     body, hats = soft(8.0, 0.6, 1.2)
     start = 20.0 * np.sqrt(np.maximum(0.15**2 - hats[1:-1] ** 2, 0.0))
-    contact = FiniteContact(body, hats, circle(1.0), start)
+    contact = FiniteContact(FiniteElementCompliance(body, hats), circle(1.0), start)
     slip = on_a_cylinder(0.5)
     way = FiniteLoadHistory(contact, SOFT)
     [sunk] = way.through([2.0 * 0.5 * slip])
