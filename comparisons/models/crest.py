@@ -48,31 +48,32 @@ def unresolved_crest(
     if problem.surface.profile is None or peak >= hardness * (1.0 - RESOLVED):
         return 0.0
     least = max(float(np.diff(problem.surface.profile.x).min()), grid.pitch / FINER**MOST)
-    enough, histories = ENOUGH * least, []
-    # maxima that may become the highest: each halving adds no more than what a node stands above
-    # its neighbours by
-    pressure, halvings = solution.pressure, np.log2(grid.pitch / enough)
-    before, after = np.roll(pressure, 1), np.roll(pressure, -1)
-    most = pressure + max(1.0, halvings) * (2.0 * pressure - before - after)
-    [tops] = np.nonzero((pressure >= np.maximum(before, after)) & (most >= pressure.max()))
-    for top in tops[np.argsort(-most[tops])][:MOST]:
-        fine, pressed, history = grid, solution, []
-        while not history or fine.pitch > enough:
-            place = fine.x[top]
-            fine, pressed = _refined(problem, effects, fine, pressed, top)
-            # the ends, where fine elements meet coarse ones, are no part of the crest
-            near = np.abs(fine.x - place) <= 0.5 * REACH * FINER * fine.pitch
-            top = int(np.where(near, pressed.pressure, 0.0).argmax())
-            history.append(pressed.pressure[top])
-        histories.append(history)
-    change = float(np.abs(np.max(histories, axis=0) / peak - 1.0).max())
+    enough, highest, pressure = ENOUGH * least, [], solution.pressure
+    [tops] = np.nonzero(pressure >= np.maximum(np.roll(pressure, 1), np.roll(pressure, -1)))
+    most = _most(enough, grid, solution, tops)
+    tops = tops[np.argsort(-most)][: min(MOST, np.count_nonzero(most >= peak))]
+    crests = [(grid, solution, int(top)) for top in tops]
+    while not highest or crests[0][0].pitch > enough:
+        crests = [_refined(problem, effects, *crest) for crest in crests]
+        highest.append(max(pressed.pressure[top] for _, pressed, top in crests))
+        crests = [crest for crest in crests if _most(enough, *crest) >= highest[-1]]
+    change = float(np.abs(np.array(highest) / peak - 1.0).max())
     return SAFETY * change if change > RESOLVED else 0.0
+
+
+def _most(enough: float, grid: HatGrid, solution: ContactSolution, top: np.ndarray) -> np.ndarray:
+    """What pressures [Pa] of nodes may become on elements of a pitch that is `enough` [m]: each
+    halving adds no more than what a node stands above its neighbours by."""
+    pressure, halvings = solution.pressure, max(1.0, np.log2(grid.pitch / enough))
+    above = 2.0 * pressure[top] - pressure[top - 1] - pressure[(top + 1) % grid.count]
+    return pressure[top] + halvings * np.maximum(above, 0.0)
 
 
 def _refined(
     problem: Problem, effects: frozenset[str], grid: HatGrid, solution: ContactSolution, top: int
-) -> tuple[HatGrid, ContactSolution]:
-    """The elements about a node, and pressures of the same load on finer ones instead."""
+) -> tuple[HatGrid, ContactSolution, int]:
+    """Finer elements about a node, pressures of the same load on these, and where they are highest:
+    the ends, where fine elements meet coarse ones, are no part of the crest."""
     reach = min(REACH, grid.count // 2 - 1)
     first, last = top - reach, top + reach
     if not grid.periodic:
@@ -91,4 +92,6 @@ def _refined(
     gap = fine.hat_integrals(problem.gap, problem.knots) + gap * fine.weights
     constraints = problem.constraints(load=float(pressure @ coarse.weights))
     operator, start = half_planes(problem, fine, effects), np.interp(fine.x, coarse.x, pressure)
-    return fine, solve_coupled(operator, gap, fine.weights, constraints, start)
+    pressed = solve_coupled(operator, gap, fine.weights, constraints, start)
+    near = np.abs(fine.x - grid.x[top]) <= 0.5 * REACH * FINER * fine.pitch
+    return fine, pressed, int(np.where(near, pressed.pressure, 0.0).argmax())
