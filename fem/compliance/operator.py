@@ -32,8 +32,7 @@ class FiniteElementCompliance:
         self.count = len(hats) - (1 if self._periodic else 2)
         self.normal = hat_forces(body.surface, hats, periodic=self._periodic)
         self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
-        # pressure and friction of the latest displacement, and that
-        self._latest: tuple[tuple, np.ndarray] | None = None
+        self._latest: tuple[tuple, np.ndarray] | None = None  # asked for, and the displacement
 
     @cached_property
     def tangential(self) -> csr_matrix:

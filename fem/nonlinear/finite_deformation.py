@@ -133,19 +133,20 @@ class FiniteContact:
         body, hats = compliance.body, compliance.hats
         self.body, self.hats, self.friction, self.start = body, hats, friction, start
         self.roller, self.elastic, self.compliance = roller, (body,), compliance
-        self._disc = disc
-        self.linear = _started(compliance, start, friction)
+        # of each body, the hats on it and their friction
+        self._disc, self._pressed = disc, [(compliance, friction)]
         if isinstance(roller, FiniteElementCompliance):
+            self._pressed.append((roller, -friction))
             self.elastic = body, roller.body
             moduli = tuple(part.material.youngs_modulus for part in self.elastic)
             self.response = TwoBodies(*map(HyperelasticBody, self.elastic), moduli)
             self.contact = PairContact(body, hats, roller.body, friction)
-            self.linear = np.vstack([self.linear, _started(roller, start, -friction)])
         else:
             self.response = HyperelasticBody(body)
             self.contact = CurrentContact(body, hats, roller, friction)
         self.weights = 0.5 * (hats[2:] - hats[:-2])
-        self.linear, _ = self.set_back(self.linear, start)
+        moved = np.vstack([on.displacement(start, mu) for on, mu in self._pressed])
+        self.linear, _ = self.set_back(np.where(self.response.held, 0.0, moved), start)
         self.gap = self.contact.loaded(np.zeros_like(self.linear), start)[0]
 
     def by_newton(
@@ -247,11 +248,7 @@ class FiniteContact:
     @cached_property
     def _linear(self) -> list[tuple[Response, Contact]]:
         """The linear bodies in contact on their undeformed surfaces."""
-        pairs = zip(self.elastic, (self.friction, -self.friction), strict=False)
-        return [
-            (LinearResponse(body), LinearContact(FiniteElementCompliance(body, self.hats), drag))
-            for body, drag in pairs
-        ]
+        return [(LinearResponse(on.body), LinearContact(on, mu)) for on, mu in self._pressed]
 
     def deformed(self, solution: NonlinearSolution) -> "FiniteDeformation":
         """The bodies in a state of contact."""
@@ -362,10 +359,3 @@ def _turned(
     with less z towards -x."""
     cosine, sine = np.cos(angle), np.sin(angle)
     return moved + (nodes + moved - middle) @ [[cosine - 1.0, -sine], [sine, cosine - 1.0]]
-
-
-def _started(
-    compliance: FiniteElementCompliance, pressure: np.ndarray, friction: float
-) -> np.ndarray:
-    """The linear displacement (n, 2) [m], none at held nodes."""
-    return np.where(compliance.body.held, 0.0, compliance.displacement(pressure, friction))
