@@ -164,7 +164,7 @@ class Locator:
     def _located(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         _, element = self._centres.query(where)
         at = self._reference(element, where)
-        lost = np.flatnonzero(_outside(at) > ROUNDING)
+        far = lost = np.flatnonzero(_outside(at) > ROUNDING)
         for _ in range(WALK_STEPS):
             behind = np.argmin(_barycentric(at[lost]), axis=1)
             element_next = self._neighbours[element[lost], behind]
@@ -174,7 +174,7 @@ class Locator:
             element[lost] = element_next
             at[lost] = self._reference(element_next, where[lost])
             lost = lost[_outside(at[lost]) > ROUNDING]
-        element[_outside(at) > ROUNDING] = -1
+        element[far[_outside(at[far]) > ROUNDING]] = -1
         return element, at
 
     def _reference(self, element: np.ndarray, where: np.ndarray) -> np.ndarray:

@@ -31,7 +31,7 @@ Window = tuple[float, float, float]
 DOUBT = 0.5
 FEW, MANY = 32, 512  # highest nodes and elements of a cell, by the estimate, that are looked at
 # samples along an element's edge: of promising elements its nodes, ever more of ever better ones
-*COARSE, FINE = 2, 4, 8, 16, 32
+*COARSE, FINE = NODES, *_ = 2, 4, 8, 16, 32
 BEST = 64  # elements sampled more finely, but for those that cannot reach the highest sample:
 RISE = 4.0  # of what an element's samples differ by, over their number's square; twice a parabola's
 NEAR = 0.7  # of the largest value: cells whose own are below it are not sampled between the nodes
@@ -139,8 +139,10 @@ def _between_nodes(
     def sampled(elements: list[np.ndarray], count: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Values (r, q), -inf outside, and points (r, q, 2) in the elements (r,) of each window."""
         held, at = np.unique(np.concatenate(elements)), _lattice(count)
-        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(at))
-        stress = within(body, every, held, at)
+        place, stress = points[triangles[held]], every.at(triangles[held])
+        if count > NODES:
+            place = np.einsum("mac,qa->mqc", place, shapes(at))
+            stress = within(body, every, held, at)
         nu = np.broadcast_to(body.poissons_ratio[held, None], place.shape[:2])
         for (search, window), mine in zip(looks, elements, strict=True):
             rows, (_, column) = np.searchsorted(held, mine), search.nodal.together or (every, ...)

@@ -254,7 +254,7 @@ class Recovery:
         self._stress = np.empty((len(self.known), *displacement.shape[1:-1], 3))
 
     def at(self, node: np.ndarray) -> np.ndarray:
-        """sx, sz, txz (q, …, 3) [Pa] at stress nodes (q,)."""
+        """sx, sz, txz (q, …, 3) [Pa] at stress nodes (q,), of any shape."""
         new = np.unique(node[~self.known[node]])
         if len(new) > PIECE:
             new = new[np.argsort(self.body.points[self.nodes.point[new], 0])]

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.sparse import csr_matrix
 
 from analytic.stress_state import StressState
 from fem.body.elasticity import MeshedBody
@@ -48,7 +49,7 @@ class NodalStress:
 
     nodes: StressNodes  # their mesh points, and the nodes of each triangle
     poissons_ratio: np.ndarray  # (k,) at the nodes
-    # sx, sz, txz (q, 3) [Pa] at nodes (q,); computed where they are first asked for
+    # sx, sz, txz (…, 3) [Pa] at nodes (…); computed where they are first asked for
     at: Callable[[np.ndarray], np.ndarray]
     # sx, sz, txz (k, 3) [Pa] at all nodes, cheap and rough: where to ask
     estimate: Callable[[], np.ndarray]
@@ -105,7 +106,7 @@ def nodal_stresses(
         one = slice(column, column + 1)
         return NodalStress(
             *shape,
-            lambda node: recovery.at(node)[:, column],
+            lambda node: recovery.at(node)[..., column, :],
             lambda: recovery.estimate[:, column],
             replace(load.kinks, jump=load.kinks.jump[:, column]),
             beside and FurtherStress(load.surface, lambda x, z: beside(x, z)[one]),
@@ -179,27 +180,29 @@ def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.nda
     element, and of what is further, and its quadratic interpolation."""
     share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
     held, which = np.unique(element, return_inverse=True)
-    value = nodal.at(nodal.nodes.triangles[held].ravel())
-    shape = value.shape[1:]
-    value = value.reshape(len(held), 6, *shape)
+    value = nodal.at(nodal.nodes.triangles.take(held, axis=0))
+    number = np.arange(share.size // 6).reshape(share.shape[:2])
+    node = np.broadcast_to(6 * which[:, None, None] + np.arange(6), share.shape)
+    rows = share.ravel(), node.ravel(), 6 * np.arange(number.size + 1)
+    interpolation = csr_matrix(rows, (number.size, 6 * len(held)))
+
+    def between(at_nodes: np.ndarray) -> np.ndarray:
+        """(r, q, …) of values (h, 6, …) in the elements that are held."""
+        found = interpolation @ at_nodes.reshape(6 * len(held), -1)
+        return found.reshape(*number.shape, *at_nodes.shape[2:])
+
     if nodal.kinks is None:
-        return np.einsum("rqa,ra...->rq...", share, value.take(which, axis=0))
+        return between(value)
     triangles = body.mesh.triangles.take(held, axis=0)
-    corner = body.points.take(triangles[:, :3], axis=0)
-    centre = corner.mean(axis=1)
-    radius = np.sqrt(((corner - centre[:, None]) ** 2).sum(axis=2).mean(axis=1))
+    nodes = body.points.take(triangles, axis=0)
+    centre = nodes[:, :3].mean(axis=1)
+    radius = np.sqrt(((nodes[:, :3] - centre[:, None]) ** 2).sum(axis=2).mean(axis=1))
     seen = body.coated[held] == body.coated.any()
-    weights = nodal.kinks.weights(centre, radius, seen)
-    every = np.arange(len(held))
-    value = value - nodal.kinks.stress(weights, every, body.points, triangles)
+    weights, place = nodal.kinks.weights(centre, radius, seen), between(nodes)
+    value = value - nodal.kinks.stress(weights, np.arange(len(held)), body.points, triangles)
     if nodal.further is not None:
-        value -= nodal.further.at(body.points[triangles]).reshape(value.shape)
-    nodes = body.points.take(triangles.take(which, axis=0), axis=0)
-    place = np.einsum("rac,rqa->rqc", nodes, share, optimize=True)
-    number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
-    nodal_values = value.reshape(len(held), 6, -1).take(which, axis=0)
-    values = (share @ nodal_values).reshape(*number.shape, *shape)
-    values += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+        value -= nodal.further.at(nodes).reshape(value.shape)
+    values = between(value) + nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
     if nodal.further is not None:
         values += nodal.further.at(place).reshape(values.shape)
     return values
