@@ -5,6 +5,7 @@ steps are not."""
 
 import os
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -83,8 +84,26 @@ def refusal(path, **options):
     return message, caught.value.line
 
 
-def check(path, case, **options):
+def read_content(folder, content, **how):
+    """What is read from a file of this content, in its own units unless others are given."""
+    path = folder / "trace.csv"
+    path.write_bytes(content)
+    return read_profile(path, **({"x_scale": 1.0, "height_scale": 1.0} | how))
+
+
+bridged = partial(read_content, dropouts="bridge")
+
+
+def holds(read, x, height, lost=(0, 0), rtol=0.0):
+    """`lost` samples are those bridged and those trimmed."""
+    np.testing.assert_allclose(read.profile.x, x, rtol=rtol)
+    np.testing.assert_allclose(read.profile.height, height, rtol=rtol)
+    assert (read.bridged, read.trimmed) == lost
+
+
+def check(folder, case, **options):
     content, line, words = case
+    path = folder / "trace.csv"
     path.write_bytes(content)
     message, place = refusal(path, **options)
     assert place == line
@@ -93,25 +112,25 @@ def check(path, case, **options):
 
 @pytest.mark.parametrize("case", BAD.values(), ids=BAD)
 def test_bad_files_are_refused_at_their_line(tmp_path, case):
-    check(tmp_path / "trace.csv", case)
+    check(tmp_path, case)
 
 
 @pytest.mark.parametrize("case", BAD_ALONE.values(), ids=BAD_ALONE)
 def test_bad_files_of_heights_alone_are_refused_at_their_line(tmp_path, case):
-    check(tmp_path / "trace.csv", case, spacing=1e-6)
+    check(tmp_path, case, spacing=1e-6)
 
 
 @pytest.mark.parametrize("end", ["\r\n", "\r"])
 def test_line_numbers_count_the_lines_of_other_systems(tmp_path, end):
     content = end.join(["# c", "", "x z", "0 1", "1 2", "2 oops", "3 4", "4 5"]).encode()
-    check(tmp_path / "trace.csv", (content, 6, "'oops' is not a number"))
+    check(tmp_path, (content, 6, "'oops' is not a number"))
 
 
 def test_line_number_far_down_a_long_file(tmp_path):
     rows = [f"{i};{i % 7},5" for i in range(100_000)]
     rows[54_321] = "54321;1,5x"
     content = "\n".join(rows).encode()
-    check(tmp_path / "trace.csv", (content, 54_322, "'1,5x' is not a number"))
+    check(tmp_path, (content, 54_322, "'1,5x' is not a number"))
 
 
 def test_what_is_no_file(tmp_path):
@@ -158,13 +177,11 @@ pieces = numbers | signs | st.just("\n") | odd_ones
     spacing=st.sampled_from([None, 1.0]),
 )
 def test_any_text_is_either_a_profile_or_one_clear_line(tmp_path_factory, text, dropouts, spacing):
-    path = tmp_path_factory.mktemp("profiles") / "trace.txt"
-    path.write_text(text, newline="")
+    folder = tmp_path_factory.mktemp("profiles")
     try:
-        options = {"dropouts": dropouts, "spacing": spacing}
-        read = read_profile(path, x_scale=1.0, height_scale=1.0, **options)
+        read = read_content(folder, text.encode(), dropouts=dropouts, spacing=spacing)
     except ProfileError as error:
-        assert str(error).startswith(str(path)) and "\n" not in str(error)
+        assert str(error).startswith(str(folder / "trace.csv")) and "\n" not in str(error)
         assert error.line is None or 1 <= error.line <= len(text) + 1
     else:
         assert len(read.profile.x) >= 4
@@ -181,10 +198,8 @@ def test_any_text_is_either_a_profile_or_one_clear_line(tmp_path_factory, text, 
     ],
 )
 def test_arguments_that_make_no_sense(tmp_path, options, words):
-    path = tmp_path / "trace.csv"
-    path.write_bytes(GOOD)
     with pytest.raises(ValueError, match=words):
-        read_profile(path, **({"x_scale": 1e-6, "height_scale": 1e-6} | options))
+        read_content(tmp_path, GOOD, **options)
 
 
 X = [0.0, 0.5, 1.5, 2.0, 4.25]
@@ -218,38 +233,23 @@ ONE_COLUMN = {
 }
 
 
-def write(directory, content):
-    path = directory / "trace.txt"
-    path.write_bytes(content)
-    return path
-
-
 @pytest.mark.parametrize("content", TWO_COLUMNS.values(), ids=TWO_COLUMNS)
 def test_two_columns_in_any_dialect(tmp_path, content):
-    read = read_profile(write(tmp_path, content), x_scale=1.0, height_scale=1.0)
-    np.testing.assert_array_equal(read.profile.x, X)
-    np.testing.assert_array_equal(read.profile.height, HEIGHT)
-    assert (read.bridged, read.trimmed) == (0, 0)
+    holds(read_content(tmp_path, content), X, HEIGHT)
 
 
 @pytest.mark.parametrize("content", ONE_COLUMN.values(), ids=ONE_COLUMN)
 def test_one_column_in_any_dialect(tmp_path, content):
-    path = write(tmp_path, content)
-    read = read_profile(path, x_scale=1.0, height_scale=1.0, spacing=0.25)
-    np.testing.assert_array_equal(read.profile.x, [0.0, 0.25, 0.5, 0.75, 1.0])
-    np.testing.assert_array_equal(read.profile.height, HEIGHT)
+    holds(read_content(tmp_path, content, spacing=0.25), 0.25 * np.arange(5), HEIGHT)
 
 
 def test_whole_numbers_with_a_comma_are_two_columns(tmp_path):
-    path = write(tmp_path, b"1,5\n2,7\n3,7\n4,6\n")
-    read = read_profile(path, x_scale=1.0, height_scale=1.0)
-    np.testing.assert_array_equal(read.profile.x, [1, 2, 3, 4])
-    np.testing.assert_array_equal(read.profile.height, [5, 7, 7, 6])
+    holds(read_content(tmp_path, b"1,5\n2,7\n3,7\n4,6\n"), [1, 2, 3, 4], [5, 7, 7, 6])
 
 
 def test_heights_are_scaled_but_not_moved(tmp_path):
-    path = write(tmp_path, b"1 105\n2 107\n3 106\n4 109\n")
-    read = read_profile(path, x_scale=1e-6, height_scale=1e-9)
+    content = b"1 105\n2 107\n3 106\n4 109\n"
+    read = read_content(tmp_path, content, x_scale=1e-6, height_scale=1e-9)
     np.testing.assert_allclose(read.profile.height, [1.05e-7, 1.07e-7, 1.06e-7, 1.09e-7])
 
 
@@ -257,9 +257,8 @@ def test_a_long_file_reads_the_same_fast_and_row_by_row(tmp_path):
     generator = np.random.default_rng(7)
     x, height = np.arange(20_000) * 0.25, generator.normal(size=20_000)
     plain = "\n".join(f"{a:.2f} {h:.12e}" for a, h in zip(x, height, strict=True))
-    fast = read_profile(write(tmp_path, plain.encode()), x_scale=1.0, height_scale=1.0)
-    fortran = plain.replace("e", "D").encode()
-    careful = read_profile(write(tmp_path, fortran), x_scale=1.0, height_scale=1.0)
+    fast = read_content(tmp_path, plain.encode())
+    careful = read_content(tmp_path, plain.replace("e", "D").encode())
     np.testing.assert_array_equal(fast.profile.x, x)
     np.testing.assert_allclose(fast.profile.height, height, rtol=1e-12)
     np.testing.assert_array_equal(careful.profile.height, fast.profile.height)
@@ -312,96 +311,71 @@ def test_two_columns_survive_a_round_trip(tmp_path_factory, dialect, x, data):
     height = data.draw(st.lists(heights, min_size=len(x), max_size=len(x)))
     x = 0.25 * np.array(x)
     content = written(dialect, zip(x, height, strict=True))
-    path = write(tmp_path_factory.mktemp("profiles"), content)
-    read = read_profile(path, x_scale=1.0, height_scale=1.0)
     order = np.argsort(x)
-    np.testing.assert_array_equal(read.profile.x, x[order])
-    np.testing.assert_array_equal(read.profile.height, rounded(dialect, height)[order])
+    read = read_content(tmp_path_factory.mktemp("profiles"), content)
+    holds(read, x[order], rounded(dialect, height)[order])
 
 
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(dialect=dialects(), height=st.lists(heights, min_size=4, max_size=30))
 def test_one_column_survives_a_round_trip(tmp_path_factory, dialect, height):
     dialect = dialect | {"separator": "", "header": "height\n"}
-    content = written(dialect, [(h,) for h in height])
-    path = write(tmp_path_factory.mktemp("profiles"), content)
-    options = {"x_scale": 1.0, "height_scale": 1.0, "spacing": 0.5}
+    problem = tmp_path_factory.mktemp("profiles"), written(dialect, [(h,) for h in height])
     cells = [format(h, dialect["form"]).partition(".") for h in height]
     every_row_has_a_comma = dialect["decimal"] == "," and all(point for _, point, _ in cells)
     if every_row_has_a_comma and len({whole for whole, _, _ in cells}) == len(height):
         with pytest.raises(ProfileError, match="may stand between x and height or be decimal"):
-            read_profile(path, **options)
+            read_content(*problem, spacing=0.5)
         return
-    read = read_profile(path, **options)
-    np.testing.assert_array_equal(read.profile.x, 0.5 * np.arange(len(height)))
-    np.testing.assert_array_equal(read.profile.height, rounded(dialect, height))
-
-
-def bridged(directory, content, **options):
-    path = directory / "trace.csv"
-    path.write_text(content)
-    scales = {"x_scale": 1.0, "height_scale": 1.0}
-    return read_profile(path, dropouts="bridge", **(scales | options))
+    read = read_content(*problem, spacing=0.5)
+    holds(read, 0.5 * np.arange(len(height)), rounded(dialect, height))
 
 
 def test_gaps_are_bridged_by_place_not_by_count(tmp_path):
-    read = bridged(tmp_path, "0,1\n1,NaN\n4,***\n5,6\n6,BAD\n7,2\n8,0\n")
-    np.testing.assert_allclose(read.profile.x, [0, 1, 4, 5, 6, 7, 8])
-    np.testing.assert_allclose(read.profile.height, [1, 2, 5, 6, 4, 2, 0], rtol=1e-15)
-    assert (read.bridged, read.trimmed) == (3, 0)
+    read = bridged(tmp_path, b"0,1\n1,NaN\n4,***\n5,6\n6,BAD\n7,2\n8,0\n")
+    holds(read, [0, 1, 4, 5, 6, 7, 8], [1, 2, 5, 6, 4, 2, 0], (3, 0), rtol=1e-15)
 
 
 def test_ends_are_trimmed_and_not_extrapolated(tmp_path):
-    read = bridged(tmp_path, "0,\n1,\n2,5\n3,6\n4,inf\n5,8\n6,7\n7,NaN\n")
-    np.testing.assert_array_equal(read.profile.x, [2, 3, 4, 5, 6])
-    np.testing.assert_array_equal(read.profile.height, [5, 6, 7, 8, 7])
-    assert (read.bridged, read.trimmed) == (1, 3)
+    read = bridged(tmp_path, b"0,\n1,\n2,5\n3,6\n4,inf\n5,8\n6,7\n7,NaN\n")
+    holds(read, [2, 3, 4, 5, 6], [5, 6, 7, 8, 7], (1, 3))
 
 
 def test_neighbours_are_those_in_x_whatever_the_order_of_rows(tmp_path):
-    read = bridged(tmp_path, "5,6\n1,NaN\n9,NaN\n0,1\n6,5\n7,4\n")
-    np.testing.assert_array_equal(read.profile.x, [0, 1, 5, 6, 7])
-    np.testing.assert_array_equal(read.profile.height, [1, 2, 6, 5, 4])
-    assert (read.bridged, read.trimmed) == (1, 1)
+    read = bridged(tmp_path, b"5,6\n1,NaN\n9,NaN\n0,1\n6,5\n7,4\n")
+    holds(read, [0, 1, 5, 6, 7], [1, 2, 6, 5, 4], (1, 1))
 
 
 def test_empty_lines_of_a_single_column_are_lost_heights(tmp_path):
-    read = bridged(tmp_path, "z\n\n1.5\n2.5\n\n3.5\nbad\n\n2\n\n", spacing=0.5)
-    np.testing.assert_array_equal(read.profile.x, 0.5 * np.arange(7))
-    np.testing.assert_allclose(read.profile.height, [1.5, 2.5, 3, 3.5, 3, 2.5, 2], rtol=1e-15)
-    assert (read.bridged, read.trimmed) == (3, 0)
+    read = bridged(tmp_path, b"z\n\n1.5\n2.5\n\n3.5\nbad\n\n2\n\n", spacing=0.5)
+    holds(read, 0.5 * np.arange(7), [1.5, 2.5, 3, 3.5, 3, 2.5, 2], (3, 0), rtol=1e-15)
 
 
 @pytest.mark.parametrize(
-    "rows", ["0;1\n1;2\n;9\nNaN;\n4;8\n5;0\n", "5;0\n4;8\n-;NaN\n;3\n1;2\n0;1\n"]
+    "rows", [b"0;1\n1;2\n;9\nNaN;\n4;8\n5;0\n", b"5;0\n4;8\n-;NaN\n;3\n1;2\n0;1\n"]
 )
 def test_a_lost_x_is_put_between_its_neighbours_in_ordered_rows(tmp_path, rows):
     read = bridged(tmp_path, rows)
-    np.testing.assert_allclose(read.profile.x, [0, 1, 2, 3, 4, 5], rtol=1e-15)
-    np.testing.assert_allclose(read.profile.height, [1, 2, 4, 6, 8, 0], rtol=1e-15)
-    assert read.bridged == 2
+    holds(read, [0, 1, 2, 3, 4, 5], [1, 2, 4, 6, 8, 0], (2, 0), rtol=1e-15)
 
 
 def test_a_lost_x_at_an_end_is_trimmed(tmp_path):
-    read = bridged(tmp_path, "NaN 7\n0 1\n1 2\n2 1\n3 1\n*** 9\n")
-    np.testing.assert_array_equal(read.profile.height, [1, 2, 1, 1])
-    assert (read.bridged, read.trimmed) == (0, 2)
+    read = bridged(tmp_path, b"NaN 7\n0 1\n1 2\n2 1\n3 1\n*** 9\n")
+    holds(read, [0, 1, 2, 3], [1, 2, 1, 1], (0, 2))
 
 
 @pytest.mark.parametrize(
     ("content", "line", "words"),
     [
-        ("0 1\n2 2\n1 2\nNaN 3\n3 3\n4 1\n", 4, "not in order of x"),
-        ("0 NaN\n1 1\n2 1\n3 2\n4 BAD\n", None, "3 samples but for"),
-        ("0 NaN\n1 NaN\n2 NaN\n3 NaN\n", None, "nothing but dropouts"),
-        ("0 1\n1 NaN\n1 2\n2 1\n3 1\n", 3, "the same as in line 2"),
-        ("0 1\n1 oops\n2 NaN\n3 1\n4 1\n", 2, "'oops' is not a number"),
+        (b"0 1\n2 2\n1 2\nNaN 3\n3 3\n4 1\n", 4, "not in order of x"),
+        (b"0 NaN\n1 1\n2 1\n3 2\n4 BAD\n", None, "3 samples but for"),
+        (b"0 NaN\n1 NaN\n2 NaN\n3 NaN\n", None, "nothing but dropouts"),
+        (b"0 1\n1 NaN\n1 2\n2 1\n3 1\n", 3, "the same as in line 2"),
+        (b"0 1\n1 oops\n2 NaN\n3 1\n4 1\n", 2, "'oops' is not a number"),
     ],
 )
 def test_what_cannot_be_bridged_is_refused(tmp_path, content, line, words):
-    with pytest.raises(ProfileError, match=words) as caught:
-        bridged(tmp_path, content)
-    assert caught.value.line == line
+    check(tmp_path, (content, line, words), dropouts="bridge")
 
 
 PLACES = 0.5 * np.arange(400)  # um
@@ -409,27 +383,22 @@ Z = np.sin(PLACES / 7.0)
 KEPT = (PLACES < 60.0) | (PLACES > 90.0)
 
 
-def as_text(folder, x, z, form="%.6g"):
+def measured(folder, x, z, dropouts):
     path = folder / "trace.csv"
-    np.savetxt(path, np.column_stack([x, z]), fmt=form, delimiter=",")
-    return path
-
-
-def read(path, dropouts):
+    np.savetxt(path, np.column_stack([x, z]), fmt="%.6g", delimiter=",")
     return read_measured(path, x_scale=1e-6, height_scale=1e-6, dropouts=dropouts)
 
 
 def test_a_gap_is_refused_where_it_is(tmp_path):
-    path = as_text(tmp_path, PLACES[KEPT], Z[KEPT])
     with pytest.raises(ProfileError, match=r"gap from 5.95e-05 m to 9.05e-05 m \(61 samples lost"):
-        read(path, "refuse")
+        measured(tmp_path, PLACES[KEPT], Z[KEPT], "refuse")
     kept = KEPT & ((PLACES < 20.0) | (PLACES > 21.5))
     with pytest.raises(ProfileError, match=r"and at 1 more places \(65 samples lost\)"):
-        read(as_text(tmp_path, PLACES[kept], Z[kept]), "refuse")
+        measured(tmp_path, PLACES[kept], Z[kept], "refuse")
 
 
 def test_a_gap_is_bridged_by_a_straight_line(tmp_path):
-    trace = read(as_text(tmp_path, PLACES[KEPT], Z[KEPT]), "bridge")
+    trace = measured(tmp_path, PLACES[KEPT], Z[KEPT], "bridge")
     np.testing.assert_allclose(trace.profile.x, 1e-6 * PLACES, atol=1e-15)
     np.testing.assert_allclose(trace.profile.height[KEPT], 1e-6 * Z[KEPT], atol=1e-11)
     between = 1e-6 * np.interp(PLACES[~KEPT], PLACES[KEPT], Z[KEPT])
@@ -441,7 +410,7 @@ def test_a_gap_is_bridged_by_a_straight_line(tmp_path):
 def test_a_gap_beyond_all_bounds_is_not_filled(tmp_path):
     x = np.append(PLACES[:-1], 1e7)
     with pytest.raises(ProfileError, match=r"x has a gap of 199996.. samples; at most 2000000"):
-        read(as_text(tmp_path, x, Z), "bridge")
+        measured(tmp_path, x, Z, "bridge")
 
 
 def test_an_uneven_scan_of_an_instrument_has_gaps_too(tmp_path, monkeypatch):

@@ -20,6 +20,7 @@ X = 0.5 * np.arange(40)  # um
 RAW = np.sin(X / 3.0)
 LEVEL = RAW - 0.01 * X
 UM = {"x_scale": 1e-6, "height_scale": 1e-6}
+ALONE = {"spacing": 0.5e-6, "height_scale": 1e-6}  # of heights without their x
 HAS_SPREADSHEETS = importlib.util.find_spec("SurfaceTopography") is not None
 needs_spreadsheets = pytest.mark.skipif(
     not HAS_SPREADSHEETS, reason="no SurfaceTopography: pip install SurfaceTopography"
@@ -65,7 +66,7 @@ def test_columns_are_chosen_by_number_or_name(tmp_path):
     path = text(tmp_path, "n,x [um],raw [um],level [um]\n", index, X, RAW, LEVEL)
     holds(path, RAW, columns=(1, 2))
     holds(path, LEVEL, columns=("x [um]", "level [um]"))
-    holds(path, LEVEL, columns=("level [um]",), spacing=0.5e-6, height_scale=1e-6)
+    holds(path, LEVEL, columns=("level [um]",), **ALONE)
     message = refusal(path, ColumnsError)
     assert "4 columns; a profile has two (x, height) or one (height), and columns" in message
     assert "numbers from 0 to 3, or by names, of 'n', 'x [um]', 'raw [um]', 'level" in message
@@ -130,19 +131,18 @@ def test_a_list_of_the_points_of_a_grid_is_a_map(tmp_path, order, delimiter):
 def test_numbers_of_which_a_line_is_asked_for_are_a_map(tmp_path):
     """Whatever language its header has; without a choice what is said names both ways."""
     np.savetxt(tmp_path / "map.txt", SURFACE, header="Kanava: Korkeus\nLeveys: 20 µm")
-    size = {"spacing": 0.5e-6, "height_scale": 1e-6}
-    holds(tmp_path / "map.txt", SURFACE[3], **size, chosen=MapLine(row=3))
+    holds(tmp_path / "map.txt", SURFACE[3], **ALONE, chosen=MapLine(row=3))
     message = refusal(tmp_path / "map.txt", ColumnsError)
     assert "40 columns; a profile has two" in message
     assert "from 0 to 39; of a map row, column or line chooses one line" in message
     np.save(tmp_path / "narrow.npy", SURFACE.T)
-    trace = read_measured(tmp_path / "narrow.npy", **size, chosen=MapLine(column=3))
+    trace = read_measured(tmp_path / "narrow.npy", **ALONE, chosen=MapLine(column=3))
     np.testing.assert_allclose(trace.profile.height, 1e-6 * SURFACE[3], atol=1e-12)
 
 
 def test_arrays_of_numpy(tmp_path):
     np.save(tmp_path / "heights.npy", RAW)
-    holds(tmp_path / "heights.npy", RAW, spacing=0.5e-6, height_scale=1e-6)
+    holds(tmp_path / "heights.npy", RAW, **ALONE)
     np.save(tmp_path / "both.npy", np.column_stack([X, RAW]))
     holds(tmp_path / "both.npy", RAW)
     np.savez(tmp_path / "named.npz", z=RAW, x=X, gain=3.0, label="mine")
@@ -151,9 +151,7 @@ def test_arrays_of_numpy(tmp_path):
     holds(tmp_path / "more.npz", LEVEL, columns=("x", "level"))
     assert "by names, of 'x', 'z', 'level'" in refusal(tmp_path / "more.npz", ColumnsError)
     np.save(tmp_path / "map.npy", np.outer(np.ones(40), RAW))
-    trace = holds(tmp_path / "map.npy", RAW, spacing=0.5e-6, height_scale=1e-6,
-                  chosen=MapLine(row=3))  # fmt: skip
-    assert trace.format == "npy"
+    assert holds(tmp_path / "map.npy", RAW, **ALONE, chosen=MapLine(row=3)).format == "npy"
     assert "is npy, from whose header" in refusal(
         tmp_path / "both.npy", MissingUnitError, x_scale=None
     )
@@ -162,10 +160,9 @@ def test_arrays_of_numpy(tmp_path):
 def test_one_of_several_maps_is_chosen(tmp_path):
     np.savez(tmp_path / "maps.npz", a=np.outer(np.ones(40), RAW), b=np.eye(40))
     assert "holds 2 maps; allowed is channel, of 'a', 'b'" in refusal(tmp_path / "maps.npz")
-    options = {"channel": "a", "chosen": MapLine(row=0)}
-    holds(tmp_path / "maps.npz", RAW, spacing=0.5e-6, height_scale=1e-6, **options)
-    options["channel"] = "c"
-    assert "has no channel 'c'; allowed is 'a', 'b'" in refusal(tmp_path / "maps.npz", **options)
+    holds(tmp_path / "maps.npz", RAW, **ALONE, channel="a", chosen=MapLine(row=0))
+    said = refusal(tmp_path / "maps.npz", channel="c", chosen=MapLine(row=0))
+    assert "has no channel 'c'; allowed is 'a', 'b'" in said
 
 
 def test_arrays_that_are_no_profile(tmp_path, monkeypatch):
@@ -246,28 +243,23 @@ def test_text_that_is_large_once_unpacked_is_refused_before_it_is_split(tmp_path
 def test_a_spreadsheet(tmp_path):
     from openpyxl import Workbook
 
-    book = Workbook()
-    notes = book.active
-    notes.append(["a title of mine"])
+    book, path = Workbook(), tmp_path / "trace.xlsx"
+    book.active.append(["a title of mine"])
     sheet = book.create_sheet("trace")
     sheet.append(["measured by me"])
     sheet.append(["n", "x [um]", "z [um]", None])
     for number, (x, z) in enumerate(zip(X, RAW, strict=True)):
         sheet.append([number, float(x), float(z), "good"])
-    book.save(tmp_path / "trace.xlsx")
-    holds(tmp_path / "trace.xlsx", RAW, channel="trace", columns=("x [um]", "z [um]"))
-    message = refusal(tmp_path / "trace.xlsx", ColumnsError, channel="trace")
+    book.save(path)
+    holds(path, RAW, channel="trace", columns=("x [um]", "z [um]"))
+    message = refusal(path, ColumnsError, channel="trace")
     assert "line 3: 3 columns" in message and "'n', 'x [um]', 'z [um]'" in message
-    assert "holds no columns of numbers on the sheet 'Sheet' of ['Sheet', 'trace']" in refusal(
-        tmp_path / "trace.xlsx"
-    )
-    assert "has no channel 'none'; allowed is Sheet, trace" in refusal(
-        tmp_path / "trace.xlsx", channel="none"
-    )
-    assert open_measured(tmp_path / "trace.xlsx", channel="trace", columns=(1, 2)).head == (
-        "measured by me",
-        "n, x [um], z [um]",
-    )
+    said = "holds no columns of numbers on the sheet 'Sheet' of ['Sheet', 'trace']"
+    assert said in refusal(path)
+    said = "has no channel 'none'; allowed is Sheet, trace"
+    assert said in refusal(path, channel="none")
+    head = open_measured(path, channel="trace", columns=(1, 2)).head
+    assert head == ("measured by me", "n, x [um], z [um]")
 
 
 @needs_spreadsheets

@@ -14,16 +14,8 @@ COLUMNS, ROWS = 41, 31
 Y, X = np.meshgrid(ACROSS * np.arange(ROWS), ALONG * np.arange(COLUMNS), indexing="ij")
 
 
-def of(heights: np.ndarray, **changes) -> Topography:
-    options = {
-        "path": Path("map.x3p"),
-        "heights": heights,
-        "pitch": (ALONG, ACROSS),
-        "x": None,
-        "unit": 1.0,
-        "format": "made",
-    }
-    return Topography(**(options | changes))
+def of(heights: np.ndarray, pitch=(ALONG, ACROSS), x=None) -> Topography:
+    return Topography(Path("map.x3p"), heights, pitch, x, 1.0, "made")
 
 
 def line(x0, y0, x1, y1) -> MapLine:
