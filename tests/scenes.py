@@ -38,6 +38,9 @@ RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
 # A known law of elasticity: the whole model is solved with no other.
 NEO_HOOKEAN = {"law": "neo-hookean"}
 KNOWN_STEEL, KNOWN_RUBBER = STEEL | NEO_HOOKEAN, RUBBER | NEO_HOOKEAN
+# Smooth bodies of steel, the roller elastic or rigid.
+STEEL_PAIR = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL}
+RIGID_PAIR = {"roller": {"radius": 8e-3, "rigid": True}, "body": STEEL}
 SMOOTH = {
     "title": "Smooth",
     "roller": {"radius": 7.5706e-3, **STEEL},
@@ -57,10 +60,8 @@ GROUND = {
 QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
 # Of runs that are finished without finite elements: smooth with a field; rough with a hardness and
 # two friction coefficients; and a rough layer without a field.
-STEADY = {
+STEADY = STEEL_PAIR | {
     "title": "Smooth roller on a smooth half-plane",
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
     "load": {"per_length": 1e6},
     "stress": {"points": [60, 20]},
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import STEEL, as_toml, without_cost
+from scenes import STEEL_PAIR, as_toml, without_cost
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
@@ -18,10 +18,8 @@ from comparisons.grid.map import Map, finished_map
 from comparisons.runs.finished import FinishedRun
 from comparisons.scenes.surface import surface_of
 
-SLIDING = {
+SLIDING = STEEL_PAIR | {
     "title": "Smooth",
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": STEEL,
     "load": {"per_length": 1e6, "friction": [0.0, 0.1]},
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
     "stress": {"points": [12, 6]},

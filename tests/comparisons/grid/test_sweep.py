@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 from rich.console import Console
-from scenes import STEADY, STEEL, as_toml, changed
+from scenes import RIGID_PAIR, STEADY, STEEL, STEEL_PAIR, as_toml, changed
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
@@ -19,9 +19,7 @@ from comparisons.grid.sweep_picture import sweep_figure, zone_map_figure
 from comparisons.grid.table import scatter, warnings_of
 from comparisons.models.posing import problem_of
 
-WAVES = {
-    "roller": {"radius": 8e-3, "rigid": True},
-    "body": STEEL,
+WAVES = RIGID_PAIR | {
     "profile": {"kind": "self-affine", "length": "1.2 mm", "samples": 600, "hurst": 0.8,
                 "rms_height": "0.1 um", "seed": 3},
     "load": {"hertz_peak_pressure": "1 GPa", "friction": [0.0]},
@@ -91,12 +89,11 @@ def test_the_scatter_is_that_of_the_values():
 
 def test_pressure_follows_the_root_of_the_load():
     """Hertz's law along a sweep of the load, both ends with their units."""
-    smooth = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
+    smooth = STEEL_PAIR | {"load": {"per_length": 1e6}}
     swept = crosscheck.sweep(smooth, "load=0.5 kN/mm:2 kN/mm:4", workers=1)
     peaks = values_of(swept, "contact", "peak_pressure")
-    assert np.diff(np.log(peaks)) == pytest.approx(
-        0.5 * np.diff(np.log([0.5, 1, 1.5, 2])), abs=1e-4
-    )
+    steps = 0.5 * np.diff(np.log([0.5, 1, 1.5, 2]))
+    assert np.diff(np.log(peaks)) == pytest.approx(steps, abs=1e-4)
 
 
 def printed(content) -> list[list[str]]:
@@ -198,9 +195,8 @@ def test_the_command_leaves_table_picture_and_json(made, monkeypatch, capsys):
     monkeypatch.setattr("comparisons.runs.run.run", None)  # a second call solves nothing
     assert main(asked) == 0
     assert (out / "sweep.json").read_bytes() == before
-    assert "4 scenes (2 of profile.amplitude x 2 of roller.radius), 0 failed" in (
-        capsys.readouterr().out
-    )
+    said = "4 scenes (2 of profile.amplitude x 2 of roller.radius), 0 failed"
+    assert said in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -261,10 +257,8 @@ def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
         axes = zone_map_figure(content).axes
     shown = [[text.get_text() for text in panel.texts] for panel in axes]
     assert shown == [[f"{e[k]['level']:.2f}" for e in zones] for k in (0, 1)]
-    assert [panel.get_title(loc="left") for panel in axes] == [
-        "friction 0, half-plane",
-        "friction 0.3, half-plane",
-    ]
+    titles = [panel.get_title(loc="left") for panel in axes]
+    assert titles == ["friction 0, half-plane", "friction 0.3, half-plane"]
 
 
 def test_stresses_as_arrays():
@@ -285,8 +279,8 @@ def test_stresses_as_arrays():
 
 def test_figures_of_further_studies_are_swept():
     """The length that sticks of a smooth contact falls as by Cattaneo and Mindlin."""
-    tables = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "partial_slip": {"load": 0.5}}
-    tables["load"] = {"per_length": 1e6, "friction": [0.3]}
+    load = {"per_length": 1e6, "friction": [0.3]}
+    tables = STEEL_PAIR | {"load": load, "partial_slip": {"load": 0.5}}
     swept = crosscheck.sweep(tables, "partial_slip.load=0.19,0.51,0.84", workers=1)
     lengths = values_of(swept, "partial_slip", "stick_length")
     half_width = problem_of(scene_of(tables)).hertz.half_width

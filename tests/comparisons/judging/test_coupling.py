@@ -1,14 +1,13 @@
 """Changes by friction that moves the surfaces of unlike bodies, against the sliding cylinder; of
 like ones, half-planes move alike, layers and coats do not."""
 
-import json
 from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 import scenes
-from scenes import DATA, STEEL, changed, finite_elements, half_plane_at, problem, run_of
+from scenes import STEEL, STEEL_PAIR, changed, finite_elements, half_plane_at, problem, run_of
 
 from comparisons.common.progress import no_progress
 from comparisons.figures.quantity import QUANTITIES
@@ -22,20 +21,17 @@ from comparisons.judging.study import WHY_NOT, Case, Run
 from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 
-DATA_F = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
+TABLE = scenes.reference("f_rounded_punch_and_sliding")["sliding_cylinder"]
 REFERENCES = [
-    {n: float(v) for n, v in reference.items() if n != "beta" and isinstance(v, str)}
-    for reference in DATA_F["sliding_cylinder"]
+    {n: float(v) for n, v in row.items() if n != "beta" and isinstance(v, str)} for row in TABLE
 ]
-RIGID = {
+RIGID = scenes.RIGID_PAIR | {
     "title": "Rigid roller",
-    "roller": {"radius": 8e-3, "rigid": True},
-    "body": STEEL,
     "load": {"per_length": 1e6, "friction": [0.0, 0.1, 0.3]},
     "stress": {"points": [60, 20]},
 }
 STRONG = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}  # beta = 1/2
-ALIKE = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
+ALIKE = RIGID | STEEL_PAIR
 WAVY = RIGID | {
     "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
     "body": {**STEEL, "hardness": 4e9},
@@ -104,19 +100,19 @@ class TestFigures:
     @pytest.mark.parametrize("number", [1, 2])
     def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, number):
         """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
-        reference, hertz = REFERENCES[number - 1], rigid.problem.hertz
-        moved = change(rigid, reference["mu"])
-        assert DATA_F["sliding_cylinder"][number - 1]["beta"] == "2/7"
-        wider = reference["ahalf_over_aHertz_same_load"]
-        peak = reference["peak_over_p0Hertz_same_load"]
-        shift = reference["load_line_x_over_ahalf"] * wider
+        row, hertz = REFERENCES[number - 1], rigid.problem.hertz
+        moved = change(rigid, row["mu"])
+        assert TABLE[number - 1]["beta"] == "2/7"
+        wider = row["ahalf_over_aHertz_same_load"]
+        peak = row["peak_over_p0Hertz_same_load"]
+        shift = row["load_line_x_over_ahalf"] * wider
         pressure, length = moved["peak_pressure"], moved["contact_length"]
         assert pressure[1] == pytest.approx(peak - 1.0, abs=2e-5)
         assert pressure[0] / hertz.peak_pressure == pytest.approx(peak, rel=2e-5)
         assert length[0] / hertz.half_width == pytest.approx(2.0 * wider, rel=1e-3)
         assert moved[SHIFT][1] == pytest.approx(shift, rel=1e-3)
         assert moved[SHIFT][0] == pytest.approx(shift * hertz.half_width, rel=1e-3)
-        said = rigid.findings[coupling.NAME].said("converged", friction=reference["mu"])
+        said = rigid.findings[coupling.NAME].said("converged", friction=row["mu"])
         assert said == "yes"
 
     def test_the_model_s_own_figures_stay_without_it(self, rigid):
@@ -169,10 +165,10 @@ class TestFigures:
 
 class TestSwitch:
     def test_coupled_answer_is_the_exact_one(self, rigid_coupled):
-        reference = REFERENCES[1]
-        a = rigid_coupled.problem.hertz.half_width * reference["ahalf_over_aHertz_same_load"]
+        row = REFERENCES[1]
+        a = rigid_coupled.problem.hertz.half_width * row["ahalf_over_aHertz_same_load"]
         [edges] = rigid_coupled.runs["half_plane"].finest.patches
-        exact = -reference["b_trailing_over_ahalf"], reference["c_leading_over_ahalf"]
+        exact = -row["b_trailing_over_ahalf"], row["c_leading_over_ahalf"]
         assert edges / a == pytest.approx(exact, rel=1e-3)
 
     def test_both_ways_round_tell_the_same_change(self, rigid, rigid_coupled):

@@ -1,7 +1,7 @@
 """A coated scene: the analytic operator and finite elements are two models of one problem."""
 
 import pytest
-from scenes import STEEL, run_of
+from scenes import RIGID_PAIR, run_of
 
 from comparisons.common.numbers import percent
 from comparisons.drawing.blocks import Note
@@ -9,9 +9,7 @@ from comparisons.output.page.page import sections
 from comparisons.output.page.tables.comparison import comparison_table, first_model
 from comparisons.output.page.tables.verification import levels_tables
 
-TABLES = {
-    "roller": {"radius": 8e-3, "rigid": True},
-    "body": dict(STEEL),
+TABLES = RIGID_PAIR | {
     "coating": {"thickness": 30e-6, "youngs_modulus": 420e9, "poissons_ratio": 0.22},
     "load": {"hertz_peak_pressure": 1.5e9},
     "stress": {"points": [60, 20]},

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import PROJECT, STEEL, changed, problem
+from scenes import PROJECT, STEEL_PAIR, changed, problem
 
 from comparisons.common.tasks import Tasks
 from comparisons.figures.quantity import MODELS
@@ -25,9 +25,7 @@ from comparisons.scenes.scene import Scene
 from meshes.build import build_block
 
 DOCS = PROJECT / "comparisons" / "docs"
-TABLES = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
+TABLES = STEEL_PAIR | {
     "load": {"hertz_peak_pressure": 1e9},
     "tolerance": {"peak_pressure": 1e-9},
     "budget": {"effects": False},

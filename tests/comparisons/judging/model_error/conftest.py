@@ -5,18 +5,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, problem
+from scenes import STEEL_PAIR, changed, problem
 
 from comparisons.judging.model_error.contributions import NotComputedError
 from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.models.model import Model
 from comparisons.models.problem import Problem
 
-BASE = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"hertz_peak_pressure": 2e9},
-}
+BASE = STEEL_PAIR | {"load": {"hertz_peak_pressure": 2e9}}
 
 
 @pytest.fixture(scope="session")

@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, finite_elements, problem
+from scenes import STEEL, STEEL_PAIR, changed, finite_elements, problem
 
 from analytic.contact.end_stress import EndStress
 from analytic.material import Material
@@ -89,9 +89,7 @@ def test_a_rigid_motion_reaches_every_node_and_strains_nothing(degree, coating):
 
 
 FRICTION = 0.5
-TABLES = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
+TABLES = STEEL_PAIR | {
     "load": {"hertz_peak_pressure": 1e9, "friction": FRICTION},
     "stress": {"points": [41, 11]},
     "resolution": {"levels": 2},

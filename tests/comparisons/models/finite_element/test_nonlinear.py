@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from scenes import STEEL, changed, finite_elements, lawed, problem
+from scenes import RIGID_PAIR, STEEL, changed, finite_elements, lawed, problem
 
 from analytic.material import Law, Material
 from analytic.material.third_order import LENGTH_OVER_PEAK, peak_change
@@ -22,11 +22,7 @@ from comparisons.scenes.scene import Scene
 from fem.nonlinear import finite_deformation
 from fem.solver.mumps import FemError
 
-RIGID = {
-    "roller": {"radius": 8e-3, "rigid": True},
-    "body": STEEL,
-    "load": {"hertz_peak_pressure": 2e9},
-}
+RIGID = RIGID_PAIR | {"load": {"hertz_peak_pressure": 2e9}}
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
 
 

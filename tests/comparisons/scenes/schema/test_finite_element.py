@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-from scenes import STEEL, changed, resolved
+from scenes import RIGID_PAIR, STEEL, STEEL_PAIR, changed, resolved
 
 from analytic.material import Law
 from analytic.material.hardening import Hardening
@@ -15,12 +15,8 @@ from comparisons.models.plan import make_plan
 from comparisons.models.posing import problem_of
 from comparisons.studies.problem import assumed
 
-ELASTIC = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 1e6, "friction": 0.2},
-}
-RIGID = {**ELASTIC, "roller": {"radius": 8e-3, "rigid": True}}
+LOAD = {"load": {"per_length": 1e6, "friction": 0.2}}
+ELASTIC, RIGID = STEEL_PAIR | LOAD, RIGID_PAIR | LOAD
 WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
 CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from exact_partial_slip import SlippingContact
-from scenes import STEEL, changed, half_plane_at, problem, resolved, run_of
+from scenes import STEEL, STEEL_PAIR, changed, half_plane_at, problem, resolved, run_of
 
 from analytic.stress.fatigue import ruiz
 from comparisons.drawing.blocks import TextTable
@@ -21,9 +21,7 @@ from comparisons.studies.friction.finite_elements import finite_element_slip
 from comparisons.studies.friction.half_planes import half_plane_slip
 from comparisons.studies.friction.partial_slip import COMPARED, solvers
 
-SMOOTH = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": STEEL,
+SMOOTH = STEEL_PAIR | {
     "load": {"per_length": 1e6, "friction": [0.1, 0.3]},
     "partial_slip": {"loads": [0.5, -0.5, 0.5]},
     "stress": {"points": [120, 40]},
