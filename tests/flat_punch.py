@@ -34,9 +34,8 @@ def punch_pressures(
     bodies = [(plastic, contact_of(body, hats))]
     state, pressures = state_at_rest(bodies, np.ones(len(weights))), []
     for approach in approaches:
-        state, _ = newton_by_contacts(
-            bodies, np.zeros(len(weights)), weights, state, approach=approach
-        )
+        problem = bodies, np.zeros(len(weights)), weights, state
+        state, _ = newton_by_contacts(*problem, approach=approach)
         plastic.accept(state.displacements[0])
         pressures.append(state.load / weights.sum())
     return pressures

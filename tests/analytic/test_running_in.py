@@ -238,9 +238,8 @@ class TestSymmetry:
 
     def test_mirrored_profile_runs_into_the_mirrored_one(self, wavy):
         worn = ran_in(WAVY.mirrored(), -PLACES)
-        assert worn.profile.mirrored().height == pytest.approx(
-            wavy.profile.height, abs=1e-8 * wavy.largest_lowering
-        )
+        apart = worn.profile.mirrored().height - wavy.profile.height
+        assert np.abs(apart).max() <= 1e-8 * wavy.largest_lowering
 
     def test_place_on_the_trace_does_not_matter(self, wavy):
         worn = ran_in(WAVY.shifted(-0.02), PLACES + 0.02)

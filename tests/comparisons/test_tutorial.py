@@ -39,9 +39,8 @@ def test_the_tutorial_runs_and_its_answers_stand_in_it():
     suffices, shown = answers["checked.result['suffices']"]
     assert suffices == ast.literal_eval(shown)
     spread, shown = answers["spread"]
-    assert (
-        len(spread.content["points"]) == 8 and repr(spread).splitlines()[0] == shown.splitlines()[0]
-    )
+    assert len(spread.content["points"]) == 8
+    assert repr(spread).splitlines()[0] == shown.splitlines()[0]
 
 
 def test_figures_stay_interactive_where_they_are():

@@ -48,9 +48,8 @@ class Pressed:
     ) -> None:
         self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
         spec = BlockSpec(half_width, depth, np.array([[-1.4, 1.4]]), 1.0 / edges, growth)
-        self.body = elastic_body(
-            build_block(spec), Material(1.0 - poisson**2, poisson), Support(**held)
-        )
+        material = Material(1.0 - poisson**2, poisson)
+        self.body = elastic_body(build_block(spec), material, Support(**held))
         pitch = 1.0 / edges
         reach = edges + 8
         self.x = pitch * np.arange(-reach, reach + 1)

@@ -347,15 +347,11 @@ def test_carried_down_as_the_exact_solution():
     assert errors[-1] < 1e-3
 
 
-def spike(x):
-    return 0.2 * np.exp(-(((x - 0.75) / 0.02) ** 2))
-
-
 @pytest.mark.parametrize(
     ("height", "words"),
     [
         (sinusoid(3.0), r"inverts \d+ elements, the worst at x = .* slope is .* .steepest"),
-        (spike, r"x = 0\.7"),
+        (lambda x: 0.2 * np.exp(-(((x - 0.75) / 0.02) ** 2)), r"x = 0\.7"),  # a spike
         (lambda x: np.full_like(x, -1.1 * SPEC.depth), "inverts"),
         (lambda x: x * np.nan, "one finite number for each x"),
         (lambda x: x[:-1], "one finite number for each x"),

@@ -135,33 +135,28 @@ class TestSymmetries:
         assert by_approach.load == pytest.approx(roller.load, rel=1e-8)
 
 
-def dense_matrix(modulus, grid, friction_dundurs):
-    even = HalfPlane(grid.count, grid.pitch, modulus).column
-    odd = friction_dundurs * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
-    return toeplitz(even + odd, even - odd)
-
-
 @pytest.mark.parametrize("hardness", [np.inf, 6e9])
 def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness):
     """Signs by the matrix itself; on its own set the solution is that of the linear system."""
-    constraints = Constraints(load=roller.load, hardness=hardness)
-    gap = roller.rough(2)
-    first = roller.sliding(roller.grid, gap, friction_dundurs, constraints)
-    matrix = dense_matrix(roller.modulus, roller.grid, friction_dundurs)
-    weights = roller.grid.weights
-    moved, weighted_gap = matrix @ first.pressure, roller.grid.hat_integrals(gap)
+    constraints, grid = Constraints(load=roller.load, hardness=hardness), roller.grid
+    gap, weights = roller.rough(2), grid.weights
+    first = roller.sliding(grid, gap, friction_dundurs, constraints)
+    even = HalfPlane(grid.count, grid.pitch, roller.modulus).column
+    odd = friction_dundurs * grid.pitch**2 / roller.modulus * hat_sign(np.arange(grid.count))
+    matrix = toeplitz(even + odd, even - odd)
+    moved, weighted_gap = matrix @ first.pressure, grid.hat_integrals(gap)
     again = assessed(moved, first.pressure, weighted_gap, weights, first.approach, constraints, {})
     assert again.residuals.worst < 1e-9
     capped = first.pressure >= hardness
     assert capped.any() == np.isfinite(hardness)
     assert np.all(first.gap[capped] < 1e-12)
     free = np.flatnonzero((first.pressure > 0.0) & ~capped)
-    assert len(contact_patches(roller.grid.x, first.pressure, first.gap)) > 3
+    assert len(contact_patches(grid.x, first.pressure, first.gap)) > 3
     system = np.zeros((len(free) + 1, len(free) + 1))
     system[:-1, :-1] = matrix[np.ix_(free, free)]
     system[:-1, -1], system[-1, :-1] = -weights[free], weights[free]
     held = np.where(capped, first.pressure, 0.0)
-    known = -(roller.grid.hat_integrals(gap) + matrix @ held)[free]
+    known = -(weighted_gap + matrix @ held)[free]
     solved = np.linalg.solve(system, np.append(known, roller.load - weights @ held))[:-1]
     assert first.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
 

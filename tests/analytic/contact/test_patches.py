@@ -6,25 +6,18 @@ import pytest
 from analytic.contact.patches import contact_patches
 
 
-def opening(distance):
-    """Hertz-like gap beyond an edge."""
-    return np.maximum(distance, 0.0) ** 1.5
-
-
 @pytest.mark.parametrize("edge", np.linspace(0.02, 0.98, 7))
 def test_edges_of_one_patch_are_found_between_the_nodes(edge):
     x = np.arange(-30.0, 31.0)
     right, left = 10.0 + edge, -(8.0 + edge)
     inside = (x > left) & (x < right)
     pressure = np.where(inside, np.sqrt(np.clip((x - left) * (right - x), 0.0, None)), 0.0)
-    hat = np.polynomial.legendre.leggauss(20)
+    points, weights = np.polynomial.legendre.leggauss(20)
+    share = 0.5 * (points + 1.0)
 
-    def averaged(distance):
-        share = 0.5 * (hat[0] + 1.0)
-        return sum(
-            np.sum(0.5 * hat[1] * (1.0 - share) * opening(distance + side * share))
-            for side in (-1.0, 1.0)
-        )
+    def averaged(distance):  # of a gap that opens like Hertz's beyond an edge
+        sides = (np.maximum(distance + side * share, 0.0) ** 1.5 for side in (-1.0, 1.0))
+        return sum(np.sum(0.5 * weights * (1.0 - share) * gap) for gap in sides)
 
     gap = np.array([averaged(max(d - right, left - d)) for d in x]) * ~inside
     patches = contact_patches(x, pressure, gap)

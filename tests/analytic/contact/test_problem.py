@@ -54,14 +54,13 @@ ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
 def dense_oracle(grid, gap, load):
     """Pressures by non-negative least squares on the Cholesky factor, approach by bisection."""
     factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column))
+    size = np.abs(factor).max()
     weighted_gap = grid.hat_integrals(gap)
 
     def at(approach):
         target = np.linalg.solve(factor, approach * grid.weights - weighted_gap)
         scale = np.abs(target).max()
-        return nnls(factor.T / np.abs(factor).max(), target / scale, maxiter=20000)[0] * (
-            scale / np.abs(factor).max()
-        )
+        return nnls(factor.T / size, target / scale, maxiter=20000)[0] * (scale / size)
 
     low, high = -1e-5, 1e-4
     for _ in range(60):
@@ -102,13 +101,11 @@ class TestHardness:
     @pytest.mark.parametrize("above_mean", [1.05, 1.5])
     def test_a_plateau_costs_few_exchanges(self, roller, count, above_mean):
         """Nearly every node at the hardness, where block exchanges may come round in a circle."""
-        grid = HatGrid.within(
-            -2.0 * HERTZ.half_width, 2.0 * HERTZ.half_width, 4.0 * HERTZ.half_width / (count + 1)
-        )
+        reach = 2.0 * HERTZ.half_width
+        grid = HatGrid.within(-reach, reach, 2.0 * reach / (count + 1))
         hardness = above_mean * LOAD / grid.weights.sum()
-        solution = roller.pressed(
-            grid, roller_gap(RADIUS), Constraints(load=LOAD, hardness=hardness)
-        )
+        limits = Constraints(load=LOAD, hardness=hardness)
+        solution = roller.pressed(grid, roller_gap(RADIUS), limits)
         assert solution.converged
         assert solution.iterations["applications"] < 200
         assert np.mean(solution.pressure >= hardness) == pytest.approx(1.0 / above_mean, abs=5e-3)
@@ -142,9 +139,8 @@ class TestLimits:
         rough = roller.pressed(grid, lambda x: roller_gap(RADIUS)(x) - height * np.cos(wave * x))
         inside = np.abs(grid.x) < 0.5 * HERTZ.half_width
         expected = 0.5 * MODULUS * height * wave * np.cos(wave * grid.x)
-        assert (rough.pressure - plain.pressure)[inside] == pytest.approx(
-            expected[inside], abs=0.02 * expected.max()
-        )
+        added = (rough.pressure - plain.pressure)[inside]
+        assert added == pytest.approx(expected[inside], abs=0.02 * expected.max())
 
     def test_no_contact_below_the_first_touch(self, roller):
         solution = roller.pressed(ROUGH_GRID, roller_gap(RADIUS), Constraints(approach=-1e-6))
@@ -198,9 +194,8 @@ def test_residuals_see_pressure_at_the_hardness_over_an_open_gap(roller):
 def test_a_residual_that_is_no_number_does_not_count_as_met():
     none = Residuals(0.0, np.nan, 0.0, 0.0, 0.0)
     assert not none.worst <= 1.0
-    light = solve_contact(
-        HalfPlane(8, 1.0, 1.0), np.arange(8.0), np.ones(8), Constraints(load=1e-200)
-    )
+    operator, load = HalfPlane(8, 1.0, 1.0), Constraints(load=1e-200)
+    light = solve_contact(operator, np.arange(8.0), np.ones(8), load)
     assert np.isfinite(light.residuals.worst)
 
 

@@ -86,9 +86,8 @@ def solved(
     if case.period:
         solution = solve_contact(PeriodicHalfPlane(*size), *problem)
     elif case.coupled:
-        solution = solve_coupled(
-            coupled_half_planes(*size, case.friction * case.dundurs_beta), *problem
-        )
+        pair = coupled_half_planes(*size, case.friction * case.dundurs_beta)
+        solution = solve_coupled(pair, *problem)
     else:
         solution = solve_contact(HalfPlane(*size), *problem)
     assert solution.converged
@@ -153,7 +152,6 @@ class TestStresses:
 
     def test_sliding_with_coupling(self):
         case = CASES["sliding, rigid on steel, friction 0.5"]
-        contact = sliding_from_load(
-            case.load, 10e-3, case.combined_modulus, case.friction, case.dundurs_beta
-        )
+        pair = case.combined_modulus, case.friction, case.dundurs_beta
+        contact = sliding_from_load(case.load, 10e-3, *pair)
         assert_second_order(case, partial(sliding_stress, contact), contact.half_width)

@@ -38,14 +38,11 @@ def test_reference_values(case):
 def test_mean_gap_is_the_average_of_the_gap(share):
     contact = unit(share)
     a = contact.half_width
-    # from the edge on, where the gap opens as a power 3/2
-    total, _ = quad(
-        lambda u: westergaard_gap(contact, a + (0.5 - a) * u**2) * 2.0 * u,
-        0,
-        1,
-        epsabs=0,
-        epsrel=1e-12,
-    )
+
+    def opening(u):  # from the edge on, where the gap opens as a power 3/2
+        return westergaard_gap(contact, a + (0.5 - a) * u**2) * 2.0 * u
+
+    total, _ = quad(opening, 0, 1, epsabs=0, epsrel=1e-12)
     assert contact.mean_gap == pytest.approx((1.0 - 2.0 * a) * total, rel=1e-10, abs=0)
 
 

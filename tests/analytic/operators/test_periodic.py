@@ -136,9 +136,8 @@ def test_full_contact_has_the_exact_wave():
         cosine = np.cos(2.0 * np.pi * grid.x / wavelength)
         averaged = np.sinc(1.0 / count) ** 2 * grid.pitch * cosine  # of the wave over each hat
         operator = PeriodicHalfPlane(count, grid.pitch, MODULUS)
-        solution = solved(
-            operator, -amplitude * averaged, grid.weights, mean * closing * wavelength
-        )
+        load = mean * closing * wavelength
+        solution = solved(operator, -amplitude * averaged, grid.weights, load)
         assert np.all(solution.pressure > 0.0)
         wave = 2.0 / count * np.sinc(1.0 / count) ** 2 * (cosine @ solution.pressure) / closing
         assert 1.0 - wave == pytest.approx(2.0 * zeta(5.0) / count**5, rel=6.0 / count, abs=1e-11)

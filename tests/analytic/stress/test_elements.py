@@ -106,17 +106,12 @@ def test_strip_has_a_logarithmic_spike_where_the_hat_is_bounded():
     assert np.abs(hat[-1] - hat_stress(1.0, 0.0, 1.0).traction_sx) < 1e-11
 
 
-def tensors(stress: StressState, poissons_ratio: float) -> np.ndarray:
-    (sx, sz, txz), none = stress.parts, np.zeros(stress.sx.size)
-    sy = poissons_ratio * (sx + sz)
-    return np.array([[sx, txz, none], [txz, sz, none], [none, none, sy]]).transpose(2, 0, 1)
-
-
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
 def test_scalars_of_random_tensors(nu):
     rng = np.random.default_rng(11)
-    stress = StressState(*rng.standard_normal((3, 50)) * 1e9)
-    tensor = tensors(stress, nu)
+    sx, sz, txz = rng.standard_normal((3, 50)) * 1e9
+    stress, none, sy = StressState(sx, sz, txz), np.zeros(50), nu * (sx + sz)
+    tensor = np.array([[sx, txz, none], [txz, sz, none], [none, none, sy]]).transpose(2, 0, 1)
     in_plane = np.linalg.eigvalsh(tensor[:, :2, :2])
     largest = 0.5 * (in_plane[:, 1] - in_plane[:, 0])
     np.testing.assert_allclose(stress.tau1, largest, rtol=0, atol=1e-5)
@@ -164,9 +159,8 @@ def test_many_elements_in_blocks_as_in_one():
     whole = friction_stress_at(NODES, np.full(40, 1e9), x, 0.01)
     assert whole.normal.sx.shape == (19, 100)
     single = [friction_stress_at(NODES, np.full(40, 1e9), x[k, 7], 0.01) for k in (0, 18)]
-    np.testing.assert_allclose(
-        whole.normal.sx[[0, 18], 7], [one.normal.sx for one in single], rtol=1e-13
-    )
+    parts = [one.normal.sx for one in single]
+    np.testing.assert_allclose(whole.normal.sx[[0, 18], 7], parts, rtol=1e-13)
     idle = stress_at(NODES, np.zeros(40), 0.1, x, 0.01)
     np.testing.assert_array_equal(idle.sz, np.zeros((19, 100)))
 

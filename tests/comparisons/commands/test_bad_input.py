@@ -171,9 +171,8 @@ def test_a_scene_does_not_replace_its_profile(folder, complaint):
 
 def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path):
     (tmp_path / "trace.csv").write_text("x [µm],z [µm]\n" + TRACE.partition("\n")[2])
-    done = python(
-        "-m", "comparisons.cli", "init", "trace.csv", cwd=tmp_path, PYTHONIOENCODING="ascii"
-    )
+    asked = "-m", "comparisons.cli", "init", "trace.csv"
+    done = python(*asked, cwd=tmp_path, PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (0, "")
     assert r'by "x [\xb5m],z [\xb5m]" in the file' in done.stdout
 

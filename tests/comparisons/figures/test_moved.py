@@ -56,9 +56,8 @@ def test_a_difference_moves_by_its_own_uncertainty():
 
 
 def test_of_an_uncertainty_that_is_unknown_the_known_parts_count():
-    figure = replace(
-        PEAK, uncertainty=Uncertainty({"discretisation": float("inf"), "domain": 1e-3})
-    )
+    parts = {"discretisation": float("inf"), "domain": 1e-3}
+    figure = replace(PEAK, uncertainty=Uncertainty(parts))
     (row,) = moved(figure, replace(figure, value=2e9 * (1.0 + 0.9e-3))).moved
     assert not row.beyond and row.stated == pytest.approx(1e-3 + 1e-9)
 

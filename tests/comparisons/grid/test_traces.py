@@ -138,9 +138,8 @@ def test_several_scenes_are_points_of_one_table(scene, tmp_path, capsys):
     wanted = {"scene": "soft", "study": "contact", "quantity": "peak_pressure"}
     peaks = [float(row["value"]) for row in rows if wanted.items() <= row.items()]
     assert len(peaks) == 2 and peaks[1] == alone
-    assert "4 scenes (2 of scene x 2 of load.hertz_peak_pressure), 0 failed" in (
-        capsys.readouterr().out
-    )
+    said = "4 scenes (2 of scene x 2 of load.hertz_peak_pressure), 0 failed"
+    assert said in capsys.readouterr().out
 
 
 def test_what_no_point_may_have_is_refused_before(scene, tmp_path, complaint, monkeypatch):
@@ -149,9 +148,8 @@ def test_what_no_point_may_have_is_refused_before(scene, tmp_path, complaint, mo
     assert "matches no file" in complaint(*asked, "profile.file=nothing/*.csv", *out)
     assert WRONG in complaint(*asked, f"profile.file=traces/{WRONG}", *out)
     beside = ("--over", "load=1 GPa,-1e9")
-    assert "load.hertz_peak_pressure: is -1" in complaint(
-        *asked, "profile.file=traces", *beside, *out
-    )
+    said = complaint(*asked, "profile.file=traces", *beside, *out)
+    assert "load.hertz_peak_pressure: is -1" in said
     two = ("sweep", "smooth", "sinusoid", "--over", "position=3", *out)
     assert "several scenes have each their own" in complaint(*two)
     with pytest.raises(InputError, match="--over: is missing; allowed is"):

@@ -46,9 +46,8 @@ def test_what_is_left_out_counts_as_error_where_a_whole_is_known():
     last = [row for row in rows_of(outcome) if row["model"] == "half-plane"][-1]
     assert last["peak_pressure"] == pytest.approx(abs(error.value), abs=2.0 * error.numerical)
     [whole] = [row for row in rows_of(outcome) if row["model"] == "whole model"]
-    assert whole["peak_pressure"] is None and whole["pitch"] == pytest.approx(
-        outcome.data("model_error").wholes[0].grid.pitch
-    )
+    pitch = outcome.data("model_error").wholes[0].grid.pitch
+    assert whole["peak_pressure"] is None and whole["pitch"] == pytest.approx(pitch)
     assert outcome.data("ladder") is None or outcome.figures.one(source=WHOLE) is not None
 
 

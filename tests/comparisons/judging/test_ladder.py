@@ -91,9 +91,8 @@ def test_nothing_suffices_where_no_rung_holds(wavy_outcome):
     tolerance = errors[0].tolerance
     assert line(0.99 * tolerance).startswith(f"{none}cheapest that may: half-plane (")
     assert line(1.01 * tolerance) == f"{none}none is known to suffice"
-    without = refound(
-        wavy_outcome, LADDER, figures=(), series=(), statements=(Statement(WHY_NOT, "no whole"),)
-    )
+    no_whole = (Statement(WHY_NOT, "no whole"),)
+    without = refound(wavy_outcome, LADDER, figures=(), series=(), statements=no_whole)
     assert ladder.lines(without) == [] == ladder.blocks(without)
 
 

@@ -53,9 +53,8 @@ def test_the_peak_pressure_stands_for_a_field_that_is_not_asked_for(friction):
 
 def test_without_a_strength_the_sentence_says_what_it_takes():
     outcome = outcome_of(friction=[0.0, 0.4])
-    assert flow_sentence(outcome) == (
-        "taken as elastic: it flows if its shear yield is below 400 MPa at friction 0.4"
-    )
+    said = "taken as elastic: it flows if its shear yield is below 400 MPa at friction 0.4"
+    assert flow_sentence(outcome) == said
     assert "no [stress]" in flow_sentence(outcome_of(stress=False))
     assert outcome.data("yield").beyond_doubt == ""
     known = outcome.figures.of(study="yield")

@@ -60,9 +60,8 @@ class TestProblem:
         assert problem.surface.info.roughness == roughness(worn.profile)
         x = np.linspace(-50e-6, 50e-6, 999)
         lowered = surface.profile.spline()(x) - worn.profile.spline()(x)
-        assert problem.gap(x) == pytest.approx(
-            x**2 / (2.0 * PAIR.radius) - surface.profile.spline()(x) + lowered, abs=1e-18
-        )
+        unworn = x**2 / (2.0 * PAIR.radius) - surface.profile.spline()(x)
+        assert problem.gap(x) == pytest.approx(unworn + lowered, abs=1e-18)
         assert lowered.max() > 1e-9
 
     def test_it_is_run_in_under_the_scenes_pair_load_and_places(self):

@@ -97,9 +97,8 @@ def test_one_wrong_folder_of_two_writes_nothing(copied, tmp_path, capsys, name):
 
 def test_a_page_that_is_missing_or_in_the_way_is_one_line(copied, tmp_path, capsys):
     assert main(["report", str(copied), "--summary", str(tmp_path)]) == 2
-    assert (
-        f"{tmp_path}: cannot be written: is a folder; allowed is a file" in capsys.readouterr().err
-    )
+    said = f"{tmp_path}: cannot be written: is a folder; allowed is a file"
+    assert said in capsys.readouterr().err
     (copied / "report.html").unlink()
     assert main(["report", str(copied), "--pdf"]) == 2
     assert "run: holds no report.html; allowed is what a run wrote" in capsys.readouterr().err

@@ -197,22 +197,18 @@ print(json.dumps([tags.tolist(), points.tolist(), [int(k) for k in blocks[0]],
 """
 
 
-def in_gmsh(path):
+def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
+    mesh, path = outcome.runs["finite_element"].finest.mesh, tmp_path / "mesh.msh"
+    write_mesh(path, outcome, mesh)
     tags, points, kinds, nodes, views, groups, said = json.loads(quietly(IN_GMSH, path))
     assert [line for line in said if not line.startswith("Info")] == []
     order = np.argsort(tags)
     assert np.array_equal(np.array(tags)[order], np.arange(1, len(tags) + 1))
-    return np.reshape(points, (-1, 3))[order], kinds, np.array(nodes), views, groups
-
-
-def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
-    mesh, path = outcome.runs["finite_element"].finest.mesh, tmp_path / "mesh.msh"
-    write_mesh(path, outcome, mesh)
-    points, kinds, nodes, views, groups = in_gmsh(path)
     read = meshio.read(path, file_format="gmsh")
     real = np.column_stack([mesh.points + mesh.shift, np.zeros(len(mesh.points))])
-    assert np.array_equal(points, real) and np.array_equal(read.points, real)
-    assert kinds == [9] and np.array_equal(nodes.reshape(-1, 6) - 1, mesh.triangles)
+    assert np.array_equal(np.reshape(points, (-1, 3))[order], real)
+    assert np.array_equal(read.points, real)
+    assert kinds == [9] and np.array_equal(np.reshape(nodes, (-1, 6)) - 1, mesh.triangles)
     assert groups == ["top", "right", "bottom", "left", "body"] and not views
     assert np.array_equal(pyvista.read(path).points, real)
     assert outcome.problem.scene.title in path.read_bytes().decode("utf-8", errors="replace")

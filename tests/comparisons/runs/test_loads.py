@@ -22,9 +22,8 @@ def test_approach_prescribed_on_a_layer():
     [approach] = outcome.figures.of(study="contact", quantity="approach")
     assert approach.source == "finite_element"
     assert approach.value == pytest.approx(10e-6, rel=1e-3)
-    assert "known but for a constant" in outcome.findings["contact"].said(
-        "no approach", "half_plane"
-    )
+    why = outcome.findings["contact"].said("no approach", "half_plane")
+    assert "known but for a constant" in why
     assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
 
 

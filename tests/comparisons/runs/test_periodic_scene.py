@@ -116,11 +116,8 @@ def test_the_report_knows_no_roller(wave):
 
 
 def test_where_the_period_is_cut_changes_nothing():
-    levels = []
-    for position in (0.0, 0.17e-3):
-        posed = problem(changed(WAVE, load={"position": position}))
-        levels.append((posed, half_plane_at(posed)))
-    (first, one), (second, other) = levels
+    first, second = (problem(changed(WAVE, load={"position": x})) for x in (0.0, 0.17e-3))
+    one, other = half_plane_at(first), half_plane_at(second)
     assert other.patches[-1, 0] < 0.5 * PERIOD < other.patches[-1, 1]
     alike, again = values_of(one, first), values_of(other, second)
     assert again["peak_pressure"] == pytest.approx(alike["peak_pressure"], rel=2e-3)

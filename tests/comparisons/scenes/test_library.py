@@ -34,10 +34,8 @@ FEW = Levels(3, effects=2)
 def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
     """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
     problem = problem_of(Scene.read(name))
-    by_level = []
-    for refinement in range(5):
-        pitch = problem.pitches[0] / 2.0**refinement
-        by_level.append(values_of(half_plane_at(problem, pitch), problem))
+    levels = (half_plane_at(problem, problem.pitches[0] / 2.0**n) for n in range(5))
+    by_level = [values_of(level, problem) for level in levels]
     two_a = 2.0 * problem.hertz.half_width
     ratios = grid_convergence([f["contact_length"] / two_a for f in by_level], 2.0)
     peaks = grid_convergence([f["peak_pressure"] for f in by_level], 2.0)

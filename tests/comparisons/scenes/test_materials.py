@@ -192,9 +192,8 @@ CARBON = solids()["carbon steel"]
 
 
 def scene(body, roller=None, **sections):
-    return resolved(
-        {"roller": {"radius": 8e-3} | (roller or STEEL), "body": body, "load": LOAD} | sections
-    )
+    bodies = {"roller": {"radius": 8e-3} | (roller or STEEL), "body": body}
+    return resolved(bodies | {"load": LOAD} | sections)
 
 
 def warned(made):
@@ -213,9 +212,8 @@ def test_a_solid_without_constants_has_no_law():
     made = scene({"material": "100Cr6"}, {"material": "silicon nitride"})
     assert made.body.law is None
     assert made.body.youngs_modulus == 210e9
-    assert (
-        made.roller.material.youngs_modulus == solids()["silicon nitride"].material.youngs_modulus
-    )
+    nitride = solids()["silicon nitride"].material
+    assert made.roller.material.youngs_modulus == nitride.youngs_modulus
     assert not warned(made)
 
 

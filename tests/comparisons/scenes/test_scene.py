@@ -109,9 +109,8 @@ def test_everything_that_can_be_said():
     assert (scene.load.kind, scene.load.value) == ("hertz_peak_pressure", 2e9)
     assert scene.load.friction == (0.0, 0.1)
     assert surface_of(scene).position == 1e-4
-    assert scene.running_in == RunningInSection(
-        hardness=6e9, load=3e6, positions=(-2e-4, 3e-4), sweeps=3
-    )
+    places = {"positions": (-2e-4, 3e-4), "sweeps": 3}
+    assert scene.running_in == RunningInSection(hardness=6e9, load=3e6, **places)
     assert scene.stress.depth == Extent(512.3456789e-6, in_half_widths=False)
     assert scene.stress.half_range == Extent(1.5, in_half_widths=True)
     assert scene.stress.points == (30, 20)
@@ -297,9 +296,8 @@ def test_any_unknown_name_is_answered_with_a_known_one(section, name):
     with pytest.raises(SceneError, match="is no known field; the nearest is ") as caught:
         resolved(tables)
     nearest = str(caught.value).partition("the nearest is ")[2].partition(",")[0]
-    assert (
-        nearest == "title" or nearest.strip("[]") in SECTIONS or tuple(nearest.split(".")) in PLACES
-    )
+    place = tuple(nearest.split("."))
+    assert nearest == "title" or nearest.strip("[]") in SECTIONS or place in PLACES
 
 
 def test_the_scenes_that_come_along():

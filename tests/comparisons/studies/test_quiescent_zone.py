@@ -37,9 +37,8 @@ def dip_of(z, shear, deep):
 
 def test_the_dip_is_where_the_slope_of_the_shear_vanishes():
     dip = dip_of(Z, below_a_wave(Z, 4.0), 0.4)
-    low = minimize_scalar(
-        lambda z: below_a_wave(z, 4.0), bounds=(0.02, 0.3), options={"xatol": 1e-9}
-    )
+    within = {"bounds": (0.02, 0.3), "options": {"xatol": 1e-9}}
+    low = minimize_scalar(lambda z: below_a_wave(z, 4.0), **within)
     high = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.3, 0.9))
     top = minimize_scalar(lambda z: -below_a_wave(z, 4.0), bounds=(0.0, 0.02))
     assert q.state_of(dip) == q.QUIESCENT

@@ -40,20 +40,16 @@ from meshes.build import build_block
 from meshes.real_shape import roughen
 
 MATERIAL = Material(3.0, 0.3)
+CLAMPED = Support("bonded", "fixed")
+LINE = np.linspace(-1, 1, 7)
 
 
 def wavy(x):
     return 0.03 * np.cos(2.0 * x + 0.3)
 
 
-@pytest.fixture(scope="module")
-def small():
-    def make(height=None, cells=6):
-        return structured_block(
-            np.linspace(-1, 1, cells + 1), np.linspace(0, 1, cells // 2 + 1), height, 7
-        )
-
-    return make
+def small(height=None):
+    return structured_block(LINE, np.linspace(0, 1, 4), height, 7)
 
 
 # Linear displacements on curved elements are no polynomials of the coordinates: no patch test.
@@ -71,7 +67,7 @@ def small():
     ],
     ids=["shear", "stretch", "confined"],
 )
-def test_constant_strain_is_reproduced_exactly(small, height, degree, support, strain):
+def test_constant_strain_is_reproduced_exactly(height, degree, support, strain):
     mesh = small(height)
     body = elastic_body(mesh, MATERIAL, support, degree=degree)
     exx, ezz, gxz = strain
@@ -85,8 +81,7 @@ def test_constant_strain_is_reproduced_exactly(small, height, degree, support, s
 @pytest.mark.parametrize("ratio", [1e-6, 0.1, 1e6])
 def test_a_coating_under_uniform_traction_is_reproduced_exactly(degree, ratio):
     """Uniform pressure and shear: each layer strains by its own compliance; sx jumps."""
-    line = np.linspace(-1, 1, 7)
-    mesh = structured_block(line, np.array([0.0, 0.1, 0.25, 0.5, 1.0]))
+    mesh = structured_block(LINE, np.array([0.0, 0.1, 0.25, 0.5, 1.0]))
     coat = Material(ratio * MATERIAL.youngs_modulus, 0.2)
     body = elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=Coating(coat, 0.25))
     assert np.count_nonzero(body.coated) == len(body.coated) // 2
@@ -106,7 +101,7 @@ def test_a_coating_under_uniform_traction_is_reproduced_exactly(degree, ratio):
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
 
-def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
+def test_coatings_that_the_mesh_does_not_follow_are_refused():
     with pytest.raises(ValueError, match=r"\d+ elements of the mesh cross the coating"):
         elastic_body(small(), MATERIAL, Support(), coating=Coating(MATERIAL, 0.25))
     with pytest.raises(ValueError, match="thickness must be positive"):
@@ -114,17 +109,14 @@ def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
 
 
 def test_a_coating_of_the_body_s_material_is_none(degree):
-    line = np.linspace(-1, 1, 7)
-    mesh = structured_block(line, line[3:], wavy)
+    mesh, coating = structured_block(LINE, LINE[3:], wavy), Coating(MATERIAL, LINE[4])
     plain = elastic_body(mesh, MATERIAL, Support(), degree=degree)
-    coated = elastic_body(
-        mesh, MATERIAL, Support(), degree=degree, coating=Coating(MATERIAL, line[4])
-    )
+    coated = elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=coating)
     np.testing.assert_array_equal(coated.solve(pressed(coated)), plain.solve(pressed(plain)))
 
 
 @pytest.mark.parametrize("height", [None, wavy], ids=["straight", "curved"])
-def test_displacements_at_the_mesh_s_points(small, degree, height):
+def test_displacements_at_the_mesh_s_points(degree, height):
     """Polynomials of the displacement's degree on straight elements; on curved ones what lies in
     all degrees: constants, and at vertices anything."""
     body = elastic_body(small(height), MATERIAL, Support(), degree=degree)
@@ -152,7 +144,7 @@ def pressed(body: ElasticBody) -> np.ndarray:
     return load
 
 
-def test_points_keep_their_own_numbers(small, degree):
+def test_points_keep_their_own_numbers(degree):
     """The pressed points move most, and nothing depends on how points are numbered."""
     mesh = small()
     body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
@@ -169,11 +161,10 @@ def test_points_keep_their_own_numbers(small, degree):
 
 
 def test_displacement_scales_with_load_and_inversely_with_the_moduli(degree):
-    line = np.linspace(-1, 1, 7)
-    mesh = structured_block(line, line[3:])
+    mesh = structured_block(LINE, LINE[3:])
 
     def body(size):
-        coating = Coating(Material(7.0 * size, 0.2), line[4])
+        coating = Coating(Material(7.0 * size, 0.2), LINE[4])
         return elastic_body(mesh, Material(size, 0.3), Support(), degree=degree, coating=coating)
 
     soft, hard = body(1e-3), body(2e12)
@@ -183,20 +174,16 @@ def test_displacement_scales_with_load_and_inversely_with_the_moduli(degree):
 
 @pytest.mark.parametrize("size", [1e-9, 1e6])
 def test_displacement_does_not_depend_on_the_unit_of_length(degree, size):
-    line = np.linspace(-1, 1, 7)
-
     def body(size):
-        mesh = structured_block(size * line, size * line[3:], lambda x: size * wavy(x / size))
-        coating = Coating(Material(2.0, 0.1), size * line[4])
+        mesh = structured_block(size * LINE, size * LINE[3:], lambda x: size * wavy(x / size))
+        coating = Coating(Material(2.0, 0.1), size * LINE[4])
         return elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=coating)
 
-    one, other = body(1.0), body(size)
-    np.testing.assert_allclose(
-        other.solve(pressed(other)), one.solve(pressed(one)), rtol=1e-9, atol=1e-12
-    )
+    one, other = (made.solve(pressed(made)) for made in (body(1.0), body(size)))
+    np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-12)
 
 
-def test_supports_hold_what_they_say(small, degree):
+def test_supports_hold_what_they_say(degree):
     for base in ("bonded", "frictionless"):
         for sides in ("free", "rollers", "fixed"):
             body = elastic_body(small(), MATERIAL, Support(base, sides), degree=degree)
@@ -213,12 +200,12 @@ def test_a_body_held_within_is_the_smaller_body():
     """The middle of a block, held at half its extent, is a block of half its size."""
     line = np.linspace(-2.0, 2.0, 17)
     large = structured_block(line, np.linspace(0.0, 2.0, 9))
-    small = structured_block(line[4:13], np.linspace(0.0, 1.0, 5))
+    inner = structured_block(line[4:13], np.linspace(0.0, 1.0, 5))
     held = elastic_body(large, MATERIAL, Support("bonded", "fixed", within=(0.99, 0.99)))
-    alone = elastic_body(small, MATERIAL, Support("bonded", "fixed"))
+    alone = elastic_body(inner, MATERIAL, CLAMPED)
     places = {tuple(p): i for i, p in enumerate(np.round(large.points, 9))}
-    same = np.array([places[tuple(p)] for p in np.round(small.points, 9)])
-    load = np.random.default_rng(3).normal(size=small.points.shape)
+    same = np.array([places[tuple(p)] for p in np.round(inner.points, 9)])
+    load = np.random.default_rng(3).normal(size=inner.points.shape)
     wider = np.zeros(large.points.shape)
     wider[same] = load
     moved = held.solve(wider)
@@ -226,7 +213,7 @@ def test_a_body_held_within_is_the_smaller_body():
     assert not np.any(np.delete(moved, same, axis=0))
 
 
-def test_a_body_that_can_slide_refuses_a_net_horizontal_load(small):
+def test_a_body_that_can_slide_refuses_a_net_horizontal_load():
     body = elastic_body(small(), MATERIAL, Support("frictionless", "free"))
     load = pressed(body)
     load[body.surface.point[4], 0] = 0.1
@@ -262,7 +249,7 @@ def surface(spec, modulus=None):
     """Weighted displacement under a smooth pressure; the coating's modulus over the body's."""
     coat = None if modulus is None else Material(modulus * 0.91, 0.3)
     coating = None if coat is None else Coating(coat, spec.interface)
-    body = elastic_body(build_block(spec), BODY, Support("bonded", "fixed"), coating=coating)
+    body = elastic_body(build_block(spec), BODY, CLAMPED, coating=coating)
     pressure = np.maximum(0.0, 1.0 - HATS[1:-1] ** 2) ** 2
     return FiniteElementCompliance(body, HATS).apply(pressure)
 
@@ -286,9 +273,6 @@ def test_three_elements_across_a_coating_are_enough(plain, modulus):
     finer = surface(replace(spec, window=(-2.0, 2.0, 0.4, 0.02)), modulus)
     assert plate == pytest.approx(finer, abs=1e-4 * np.ptp(finer))
     assert np.ptp(plate) != pytest.approx(np.ptp(plain), rel=0.1)
-
-
-SUPPORT = Support("bonded", "fixed")
 
 
 def mixed(body: ElasticBody, load: np.ndarray) -> np.ndarray:
@@ -329,7 +313,7 @@ def shifts(mesh, material: Material, hats: np.ndarray, pressure: np.ndarray) -> 
     """Weighted displacements of the hats: by linear, quadratic, cubic and mixed elements."""
     result = []
     for degree in (1, 2, 3):
-        body = elastic_body(mesh, material, SUPPORT, degree=degree)
+        body = elastic_body(mesh, material, CLAMPED, degree=degree)
         compliance = FiniteElementCompliance(body, hats)
         result.append(compliance.apply(pressure))
         if degree == 2:
@@ -337,12 +321,9 @@ def shifts(mesh, material: Material, hats: np.ndarray, pressure: np.ndarray) -> 
     return [*result, reference]
 
 
-def thin_layer(elements: int):
-    """Thickness 1, hats on -4 to 4; square cells there, `elements` across the thickness."""
-    outer = 5.0 + graded(12.0, 1.0 / elements, 1.3)
-    middle = np.linspace(-5.0, 5.0, 10 * elements + 1)
-    x = np.concatenate([-outer[:0:-1], middle, outer[1:]])
-    return structured_block(x, np.linspace(0.0, 1.0, elements + 1))
+def assert_near(errors, expected):
+    """Within a factor of 2."""
+    assert np.all(np.abs(np.log2(np.divide(errors, expected))) < 1.0), errors
 
 
 # How far the work of a pressure on its displacement is too low: degrees 1, 2, 3, mixed.
@@ -361,11 +342,13 @@ def test_a_thin_bonded_layer(elements, nu, expected):
     hats = hat_nodes(-3.875, 0.125, count)
     pressure = (1.0 - (hats[1:-1] / 4.0) ** 2) ** 2
     exact = LayeredSurface(count, 0.125, LayeredBody(material, 1.0, "bonded")).apply(pressure)
-    mesh = thin_layer(elements)
+    outer = 5.0 + graded(12.0, 1.0 / elements, 1.3)  # square cells under the hats
+    middle = np.linspace(-5.0, 5.0, 10 * elements + 1)
+    x = np.concatenate([-outer[:0:-1], middle, outer[1:]])
+    mesh = structured_block(x, np.linspace(0.0, 1.0, elements + 1))
     work = [pressure @ moved for moved in shifts(mesh, material, hats, pressure)]
     missing = 1.0 - np.array(work) / (pressure @ exact)
-    assert np.all(missing < 2.0 * np.array(expected)), missing
-    assert np.all(missing > 0.5 * np.array(expected)), missing
+    assert_near(missing, expected)
 
 
 # Largest error of the displacement between neighbours, of its largest: degrees 1, 2, 3, mixed.
@@ -386,8 +369,7 @@ def test_a_large_block(nu, expected):
         np.abs(np.diff(moved) - exact).max() / np.abs(exact).max()
         for moved in shifts(mesh, material, hats, pressure)
     ]
-    assert np.all(off < 2.0 * np.array(expected)), off
-    assert np.all(off > 0.5 * np.array(expected)), off
+    assert_near(off, expected)
 
 
 EPS = np.finfo(float).eps
@@ -457,8 +439,7 @@ def clamped(
 ) -> ElasticBody:
     """A body held on its base and sides; `ratio`, how many times as stiff as steel a coating is."""
     coating = ratio and Coating(Material(ratio * 207e9, 0.2), INTERFACE)
-    support = Support("bonded", "fixed")
-    return elastic_body(mesh_named(mesh), material, support, degree=degree, coating=coating)
+    return elastic_body(mesh_named(mesh), material, CLAMPED, degree=degree, coating=coating)
 
 
 def confined(mesh: str, nu: float = 0.3, degree: int = 2) -> ElasticBody:

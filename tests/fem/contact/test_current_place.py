@@ -31,17 +31,18 @@ from meshes.real_shape import roughen
 
 RADIUS = 3.0
 HATS = hat_nodes(-0.8, 0.16, 11)
+PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
+DEPTHS = np.linspace(0.0, 1.0, 4)
+
+
+def rough(x):
+    return 0.1 * np.cos(3 * x)
 
 
 @pytest.fixture(scope="module")
 def wavy():
-    mesh = structured_block(
-        np.linspace(-1.5, 1.5, 13), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x), seed=2
-    )
+    mesh = structured_block(np.linspace(-1.5, 1.5, 13), DEPTHS, rough, seed=2)
     return elastic_body(mesh, Material(1.0, 0.3), Support())
-
-
-PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
 
 
 @pytest.mark.parametrize("roller", [circle(RADIUS), parabola(RADIUS), parabola(np.inf)])
@@ -112,19 +113,14 @@ def test_forces_are_along_the_current_normal_and_tangent(wavy):
 
 POISSON = 0.3
 MODULUS = 1.0 / (1.0 - POISSON**2)
-
-
 SIZE = 60.0  # of a block that is pressed
 
 
 def blocks(cells=12):
     """A rough body and a roller whose edges end elsewhere."""
-    rough = structured_block(
-        np.linspace(-1.5, 1.5, cells + 1), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x)
-    )
-    line = np.linspace(-1.6, 1.6, cells + 2)
-    roller = structured_block(line, np.linspace(0.0, 1.0, 4), lambda x: -0.2 * x**2)
-    return [elastic_body(mesh, Material(1.0, POISSON), Support()) for mesh in (rough, roller)]
+    lower = structured_block(np.linspace(-1.5, 1.5, cells + 1), DEPTHS, rough)
+    roller = structured_block(np.linspace(-1.6, 1.6, cells + 2), DEPTHS, lambda x: -0.2 * x**2)
+    return [elastic_body(mesh, Material(1.0, POISSON), Support()) for mesh in (lower, roller)]
 
 
 def some(bodies, size):
@@ -186,7 +182,7 @@ class TestTerms:
     def test_constant_pressure_between_conforming_bodies_is_exact(self):
         """The roller's nodal forces are its own hats', though its edges end elsewhere."""
         lines = np.linspace(-1.5, 1.5, 13), np.linspace(-1.6, 1.6, 15)
-        meshes = [structured_block(line, np.linspace(0.0, 1.0, 4)) for line in lines]
+        meshes = [structured_block(line, DEPTHS) for line in lines]
         bodies = [elastic_body(mesh, Material(1.0, POISSON), Support()) for mesh in meshes]
         terms = PairContact(bodies[0], HATS, bodies[1]).at(0.0 * some(bodies, 1.0), PRESSURE)
         np.testing.assert_allclose(terms.gap, 0.0, atol=1e-15)
@@ -264,10 +260,8 @@ class Pressed:
 
     @property
     def tau1(self):
-        highest = maximum(
-            self.rough, self.state.cauchy.nodal, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
-        )
-        return highest.value / self.peak
+        where, nodal = (-1.2, 1.2, 2.0), self.state.cauchy.nodal
+        return maximum(self.rough, nodal, lambda stress: stress.tau1, where).value / self.peak
 
 
 pressed = cache(Pressed)
@@ -298,9 +292,8 @@ class TestPressed:
     def test_a_very_stiff_roller_is_the_rigid_one(self):
         case = pressed(0.1, 0.1, moduli=(1.0, 1e6))
         rigid = press_finitely(case.rough, case.hats, parabola(10.0), case.start, load=case.load)
-        np.testing.assert_allclose(
-            case.state.pressure, rigid.pressure, atol=1e-5 * rigid.pressure.max()
-        )
+        near = 1e-5 * rigid.pressure.max()
+        np.testing.assert_allclose(case.state.pressure, rigid.pressure, atol=near)
         assert case.state.approach == pytest.approx(rigid.approach, rel=1e-4)
 
     def test_body_and_roller_can_be_exchanged(self):
@@ -334,10 +327,9 @@ class TestPressed:
         case = pressed(0.1, 0.1, on_rough=on_rough)
         against = FiniteElementCompliance(case.roller, case.hats)
         energies, h = [], 1e-3 * case.state.approach
+        start = case.rough, case.hats, against, case.state.pressure
         for approach in case.state.approach + np.array([-h, h]):
-            state = press_finitely(
-                case.rough, case.hats, against, case.state.pressure, approach=approach
-            )
+            state = press_finitely(*start, approach=approach)
             moved = np.split(state.solution.state.displacements[0], [len(case.rough.nodes)])
             energies.append(sum(map(neo_hookean_energy, (case.rough, case.roller), moved)))
         assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)

@@ -65,18 +65,14 @@ def surface(material: Material, extent: float = 1000.0, mirrored: bool = False):
     return FiniteElementCompliance(body, HATS)
 
 
-def sliding_bodies(body, roller, friction: float, **how) -> SumOfBodies:
-    """The roller is dragged the other way, in a frame with the same x."""
-    pair = ((body, friction), (roller, -friction))
-    return SumOfBodies(*(Sliding(surface(m, **how), f) for m, f in pair if m is not None))
-
-
 def solved(body: Material, roller: Material | None, friction: float, **how):
     """Solution on finite elements under the load, and the exact one."""
     modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
     radius = 0.5 * modulus
+    # the roller is dragged the other way, in a frame with the same x
+    pair = ((body, friction), (roller, -friction))
     solution = solve_with_model(
-        sliding_bodies(body, roller, friction, **how),
+        SumOfBodies(*(Sliding(surface(m, **how), f) for m, f in pair if m is not None)),
         coupled_half_planes(GRID.count, GRID.pitch, modulus, friction * beta),
         GRID.hat_integrals(lambda x: 0.5 * x**2 / radius),
         GRID.weights,
@@ -125,10 +121,8 @@ class TestRigidRoller:
 
     def test_what_is_left_is_the_block_s_size(self):
         """It shears and tilts: inversely as its size."""
-        errors = []
-        for extent in (60.0, 120.0, 240.0):
-            solution, exact = solved(STEEL, None, 0.5, extent=extent)
-            errors.append(load_line(solution) - exact.load_position)
+        ends = [solved(STEEL, None, 0.5, extent=extent) for extent in (60.0, 120.0, 240.0)]
+        errors = [load_line(solution) - exact.load_position for solution, exact in ends]
         order = np.log2(np.divide(errors[:-1], errors[1:]))
         assert order == pytest.approx(1.0, abs=0.25)
         assert 1e-4 < errors[-1] < 3e-3
@@ -202,9 +196,8 @@ class TestRoughProfiles:
         matrix = compliance.matrix(friction)
         gap = rough_gap(grid, seed)
         model = coupled_half_planes(grid.count, grid.pitch, 1.0, 0.5 * friction)
-        solution = solve_with_model(
-            Sliding(compliance, friction), model, gap, grid.weights, Constraints(load=LOAD)
-        )
+        problem = model, gap, grid.weights, Constraints(load=LOAD)
+        solution = solve_with_model(Sliding(compliance, friction), *problem)
         assert solution.converged and solution.iterations["steps"] <= 7
         pressure, approach = dense_contact(matrix, gap, grid.weights, LOAD)
         assert solution.pressure == pytest.approx(pressure, abs=1e-5 * pressure.max())

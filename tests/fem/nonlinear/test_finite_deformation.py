@@ -99,9 +99,8 @@ def test_a_sinusoid_under_a_flat_differs_by_less_than_half_a_per_cent():
     wave = 1.0
     amplitude = 0.025 * wave / (2.0 * np.pi)
     closing = np.pi * MODULUS * amplitude / wave
-    exact = westergaard_from_mean_pressure(
-        closing * (0.015 / (2.0 * closing)) ** 2, wave, amplitude, MODULUS
-    )
+    mean = closing * (0.015 / (2.0 * closing)) ** 2
+    exact = westergaard_from_mean_pressure(mean, wave, amplitude, MODULUS)
     assert exact.peak_pressure == pytest.approx(0.015)
     edge = wave / 64.0
     spec = BlockSpec(0.5 * wave, wave, np.array([[-0.5, 0.5]]) * wave, edge, 0.2)
@@ -231,9 +230,8 @@ def test_the_approach_and_units_lead_to_the_same(body):
         modulus * state.pressure,
         load=size * modulus * state.solution.state.load,
     )
-    np.testing.assert_allclose(
-        other.pressure / modulus, state.pressure, atol=3e-6 * state.pressure.max()
-    )
+    near = 3e-6 * state.pressure.max()
+    np.testing.assert_allclose(other.pressure / modulus, state.pressure, atol=near)
     assert other.approach == pytest.approx(size * state.approach, rel=1e-6)
 
 
@@ -262,9 +260,8 @@ def test_pressure_and_friction_bear_the_load_together(body, hardness):
     top, load = peak(curvature), 0.5 * np.pi * peak(curvature)
     options = {"friction": friction, "hardness": hardness * top}
     state = press_finitely(body, HATS, circle(1.0 / curvature), top * HERTZ, load, **options)
-    _, force = CurrentContact(body, HATS, circle(1.0 / curvature), friction).loaded(
-        state.displacement, state.pressure
-    )
+    contact = CurrentContact(body, HATS, circle(1.0 / curvature), friction)
+    _, force = contact.loaded(state.displacement, state.pressure)
     assert force[1::2].sum() == pytest.approx(load, rel=2e-7)
     assert state.load == pytest.approx(load, rel=2e-7)
     pressing = state.pressure.sum() * EDGE / load

@@ -56,9 +56,8 @@ def test_pure_shear(hardening, steps):
     path = np.outer(np.linspace(0.0, 1.0, steps + 1)[1:], [0.0, 0.0, twist])
     inside, across, state = led(law, path)
     slope = shear * hardening / (3.0 * shear + hardening)
-    np.testing.assert_allclose(
-        inside, [0, 0, Y / np.sqrt(3.0) + slope * (twist - first)], atol=1e-14
-    )
+    exact = Y / np.sqrt(3.0) + slope * (twist - first)
+    np.testing.assert_allclose(inside, [0, 0, exact], atol=1e-14)
     assert across == pytest.approx(0.0, abs=1e-14)
     plastic = twist - inside[2] / shear
     assert state.equivalent[0] == pytest.approx(plastic / np.sqrt(3.0), rel=1e-12)

@@ -75,13 +75,11 @@ def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted():
 
 def test_lost_heights_are_refused_with_their_place():
     scan = opened(MAP)
-    assert refusal(scan, chosen=MapLine(row=1)).endswith(
-        "sample 1 of row 1, at x = 1e-06 m, was not measured; "
-        "choose another line, or ask for dropouts to be bridged"
-    )
-    assert "sample 0 of row 2, at x = 0 m, was not measured, nor was 1 more" in refusal(
-        scan, chosen=MapLine(row=2)
-    )
+    said = "choose another line, or ask for dropouts to be bridged"
+    said = f"sample 1 of row 1, at x = 1e-06 m, was not measured; {said}"
+    assert refusal(scan, chosen=MapLine(row=1)).endswith(said)
+    said = "sample 0 of row 2, at x = 0 m, was not measured, nor was 1 more"
+    assert said in refusal(scan, chosen=MapLine(row=2))
 
 
 def test_lost_heights_are_bridged_and_ends_left_out():
@@ -137,10 +135,8 @@ COLUMNS = b"".join(b"%d %d %d\n" % (i, i * i % 7, 3 * i % 5) for i in range(5))
 def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
     path = text(tmp_path, COLUMNS)
     knows(monkeypatch)
-    assert refusal(path, **SCALES).endswith(
-        "columns chooses them: by numbers from 0 to 2; of a map row, column or line chooses one "
-        "line"
-    )
+    said = "by numbers from 0 to 2; of a map row, column or line chooses one line"
+    assert refusal(path, **SCALES).endswith(f"columns chooses them: {said}")
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
     assert read_measured(path).format.startswith("made")
 

@@ -152,9 +152,8 @@ def test_arrays_of_numpy(tmp_path):
     assert "by names, of 'x', 'z', 'level'" in refusal(tmp_path / "more.npz", ColumnsError)
     np.save(tmp_path / "map.npy", np.outer(np.ones(40), RAW))
     assert holds(tmp_path / "map.npy", RAW, **ALONE, chosen=MapLine(row=3)).format == "npy"
-    assert "is npy, from whose header" in refusal(
-        tmp_path / "both.npy", MissingUnitError, x_scale=None
-    )
+    said = refusal(tmp_path / "both.npy", MissingUnitError, x_scale=None)
+    assert "is npy, from whose header" in said
 
 
 def test_one_of_several_maps_is_chosen(tmp_path):
@@ -208,20 +207,15 @@ def test_a_lost_height_of_an_array_has_its_place(tmp_path, kind):
     elif kind == "npz":
         np.savez(path, x=X, z=lost)
     else:
-        write_spreadsheet(path, zip(X, lost, strict=True))
-    assert refusal(path) == (
-        f"{path}, line 17: height is lost; correct it, or ask for dropouts to be bridged"
-    )
+        openpyxl = pytest.importorskip("openpyxl", reason="no openpyxl: pip install openpyxl")
+        book = openpyxl.Workbook()
+        for x, z in zip(X, lost, strict=True):
+            book.active.append([float(x), None if np.isnan(z) else float(z)])
+        book.save(path)
+    said = "line 17: height is lost; correct it, or ask for dropouts to be bridged"
+    assert refusal(path) == f"{path}, {said}"
     bridged = np.where(np.isnan(lost), (RAW[15] + RAW[17]) / 2.0, RAW)
     holds(path, bridged, dropouts="bridge")
-
-
-def write_spreadsheet(path, rows) -> None:
-    openpyxl = pytest.importorskip("openpyxl", reason="no openpyxl: pip install openpyxl")
-    book = openpyxl.Workbook()
-    for row in rows:
-        book.active.append([None if np.isnan(value) else float(value) for value in row])
-    book.save(path)
 
 
 @pytest.mark.parametrize(

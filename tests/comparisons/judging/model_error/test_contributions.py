@@ -100,9 +100,8 @@ class TestFiniteDeformation:
 
     def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):
         problem = problem_with(roller={"rigid": True}, load={"friction": 0.2})
-        split, parts = split_by(
-            problem, made_solutions(PLAIN), 0.2, added={"finite_strain", COUPLED}
-        )
+        added = {"finite_strain", COUPLED}
+        split, parts = split_by(problem, made_solutions(PLAIN), 0.2, added=added)
         coupled = model_with(problem, frozenset({COUPLED}), 0.2)
         assert split.pairs[COUPLED] == (coupled, model_with(problem, frozenset()))
         assert split.pairs["finite_strain"] == (split.whole, coupled)

@@ -105,9 +105,8 @@ def test_a_known_law_is_not_open_and_measured_constants_scatter():
         step = np.subtract(moved.murnaghan, constants)
         assert np.count_nonzero(step) == 1
         assert share * step[place] == pytest.approx(errors[place])
-    assert law.scatter((0.03, 0.04)) == pytest.approx(
-        2.0 * np.hypot(0.03 * law.shares[0], 0.04 * law.shares[1])
-    )
+    exact = 2.0 * np.hypot(0.03 * law.shares[0], 0.04 * law.shares[1])
+    assert law.scatter((0.03, 0.04)) == pytest.approx(exact)
 
 
 def test_a_soft_body_lies_between_the_laws_of_rubbers():

@@ -242,7 +242,6 @@ def test_other_laws_too(law, poissons_ratio):
 def test_the_third_constant_has_no_part_in_plane_strain():
     material = solids()["carbon steel"].material
     ell, m, _ = material.law.murnaghan
-    without = Material(
-        material.youngs_modulus, material.poissons_ratio, Law("murnaghan", (ell, m, 0.0))
-    )
+    law = Law("murnaghan", (ell, m, 0.0))
+    without = Material(material.youngs_modulus, material.poissons_ratio, law)
     assert under_rigid_roller(without) == under_rigid_roller(material)

@@ -26,9 +26,8 @@ def outcome(wavy_outcome: Run) -> Run:
     stress = level.stress
     field = replace(stress.field, txz=1.25 * stress.field.txz)
     moved = HIGHER * np.roll(level.solution.pressure, MOVED)
-    whole = replace(
-        level, solution=replace(level.solution, pressure=moved), stress=replace(stress, field=field)
-    )
+    solution = replace(level.solution, pressure=moved)
+    whole = replace(level, solution=solution, stress=replace(stress, field=field))
     wholes = wavy_outcome.solved.cases[0].runs["finite_element"].finest, whole
     budget = replace(wavy_outcome.data("model_error"), wholes=wholes)
     return budgeted(wavy_outcome, budget)
@@ -41,9 +40,8 @@ def labels(axes) -> list[str]:
 def test_a_whole_model_that_is_the_scenes_own_is_no_further_model(outcome: Run):
     assert list(outcome.levels(0.0)) == ["half_plane", "finite_element"]
     assert list(outcome.levels(0.1)) == ["half_plane", "finite_element", "whole"]
-    assert [level.grid for level in outcome.pair(0.1).values()] == [
-        outcome.runs["finite_element"].levels[-2].grid
-    ] * 2
+    grid = outcome.runs["finite_element"].levels[-2].grid
+    assert [level.grid for level in outcome.pair(0.1).values()] == [grid, grid]
     assert outcome.deciding_friction in (0.0, 0.1)
 
 
@@ -56,9 +54,8 @@ def test_pressures_and_their_difference_are_those_of_the_whole(outcome, drawn_by
         line = next(line for line in above.lines if line.get_label() == "whole model, μ = 0.1")
         assert line.get_ydata()[1:-1] == pytest.approx(whole.solution.pressure / p0)
         half_plane = outcome.runs["half_plane"].levels[-2].solution.pressure
-        assert difference.lines[0].get_ydata()[1:-1] == pytest.approx(
-            (half_plane - whole.solution.pressure) / p0
-        )
+        apart = (half_plane - whole.solution.pressure) / p0
+        assert difference.lines[0].get_ydata()[1:-1] == pytest.approx(apart)
 
 
 def test_fields_are_those_of_the_whole_at_its_friction(outcome: Run, drawn_by):

@@ -142,9 +142,8 @@ class TestASample:
         assert normal.mean() == pytest.approx(10.0)
         assert normal.std() == pytest.approx(2.0, rel=0.02)
         assert normal.min() > 4.0 and normal.max() < 16.0
-        assert values_at(Spread(0.1, relative=True), -10.0, share).std() == pytest.approx(
-            1.0, rel=0.02
-        )
+        relative = values_at(Spread(0.1, relative=True), -10.0, share)
+        assert relative.std() == pytest.approx(1.0, rel=0.02)
         assert values_at(Spread(range=(1.0, 3.0)), 99.0, share) == pytest.approx(1.0 + 2.0 * share)
 
     def test_the_roller_moves_along_the_trace(self):

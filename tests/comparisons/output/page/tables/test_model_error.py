@@ -95,9 +95,8 @@ def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Run):
     why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
     selection = replace(split.data("model_error").selection, impossible=why)
     both = budgeted(split, replace(split.data("model_error"), selection=selection))
-    assert not_modelled_line(both) == (
-        "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
-    )
+    said = "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
+    assert not_modelled_line(both) == said
 
 
 def test_every_effect_that_applies_is_in_the_table(split: Run):
