@@ -291,16 +291,9 @@ class Campaign(Printed):
         return [*faults, verdict]
 
 
-def check_places(command: str, out: Path, junit: Path | None) -> None:
-    """Raise InputError where the files of a command cannot be written."""
-    check_writable(out, (f"{command}.json",))
-    if junit is not None:
-        check_file(junit)
-
-
 def carry_out(
     command: str,
-    cases: Sequence[Trial],
+    cases: Iterable[Trial],
     out: Path,
     junit: Path | None,
     callback: ProgressCallback,
@@ -311,7 +304,10 @@ def carry_out(
     dolfinx for cases that need it.
 
     concluded  makes the finished campaign of the command, its rows and the seconds"""
-    check_places(command, out, junit)
+    check_writable(out, (f"{command}.json",))
+    if junit is not None:
+        check_file(junit)
+    cases = tuple(cases)  # to make them may take seconds
     if any(case.model in ("finite_element", "both") for case in cases):
         check_finite_elements()
     start, kept = perf_counter(), answers_of(out, command, cases)

@@ -74,8 +74,7 @@ def distinct(curves: Mapping[str, Curve], least: float = 0.0) -> dict[tuple[str,
     """Curves by the names of all that coincide with them: one line over another would be a third
     colour, and hide it. The reach of y, or `least` if that is more, decides how near that is."""
     apart: dict[tuple[str, ...], Curve] = {}
-    reach = max((np.ptp(y) for _, y in curves.values()), default=0.0)
-    reach = max(reach, least)
+    reach = max([np.ptp(y) for _, y in curves.values()] + [least])
     for name, (x, y) in curves.items():
         for names, (place, known) in apart.items():
             if np.allclose(np.interp(place, x, y), known, rtol=0.0, atol=COINCIDE * reach):
@@ -88,8 +87,7 @@ def distinct(curves: Mapping[str, Curve], least: float = 0.0) -> dict[tuple[str,
 
 def joint_label(names: Sequence[str], beside: str = "") -> str:
     """Label of a line that stands for several."""
-    words = [LABELS[name] for name in names]
-    return words[0] + beside if len(words) == 1 else f"{' = '.join(words)}{beside}"
+    return " = ".join(LABELS[name] for name in names) + beside
 
 
 def draw(panel: "Axes", curves: Mapping[str, Curve], beside: str = "", **look: object) -> None:

@@ -19,7 +19,6 @@ from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import JUDGING_CODE, LEVEL_CODE, versions
 from comparisons.figures.quantity import QUANTITIES, label
 from comparisons.grid.groups import (
-    Axis,
     axis_of,
     counts_of,
     finite_elements,
@@ -90,30 +89,26 @@ def request_of(
     up = axis_of(usual[1] if y is None else y, counts[1], "--y")
     if across["group"] == up["group"]:
         raise InputError(f"--y: is {up['group']}, as --x; allowed are two groups")
-    return _request(posed, across, up, quantity)
-
-
-def _request(scene: Scene, x: Axis, y: Axis, quantity: str) -> Request:
-    axes = {axis["group"]: axis["values"] for axis in (y, x)}  # row by row
+    axes = {axis["group"]: axis["values"] for axis in (up, across)}  # row by row
     # [budget] limits runs alone; what follows in [finite_element] changes with groups
-    tables = {name: table for name, table in scene.tables.items() if name != "budget"}
-    tables["finite_element"] = scene.written.get("finite_element", {})
-    points = "x".join(str(len(axis["values"])) for axis in (x, y))
-    spans = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in (x, y))
-    asked = f"--points {points} --x {next(spans)} --y {next(spans)} --quantity {quantity}"
+    tables = {name: table for name, table in posed.tables.items() if name != "budget"}
+    tables["finite_element"] = posed.written.get("finite_element", {})
+    points = "x".join(map(str, counts))
+    spans = (f"{a['group']}={a['values'][0]:g}:{a['values'][-1]:g}" for a in (across, up))
+    options = f"--points {points} --x {next(spans)} --y {next(spans)} --quantity {quantity}"
     content = {
         "schema": SCHEMA,
-        "command": f"crosscheck map {scene.named} {asked}",
+        "command": f"crosscheck map {posed.named} {options}",
         "scene": tables,
-        "finite_element": finite_elements(scene, axes),
+        "finite_element": finite_elements(posed, axes),
         "quantity": quantity,
-        "x": x,
-        "y": y,
+        "x": across,
+        "y": up,
         "tolerances": list(TOLERANCES),
     }
 
     def scene_at(at: Mapping[str, float]) -> Scene:  # what is set second is set on the first
-        return scene_with(scene, {axis["group"]: at[axis["group"]] for axis in (x, y)})
+        return scene_with(posed, {axis["group"]: at[axis["group"]] for axis in (across, up)})
 
     return Request(content, points_of(axes, scene_at, quantity, CODE))
 

@@ -33,12 +33,8 @@ CONTACT, COMPARISON = "contact", "comparison"  # studies of a model by itself, a
 UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
 AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
 # By figure, the one whose largest value it is or belongs to.
-LARGEST = {
-    "peak_pressure": "peak_pressure",
-    "tau1_max": "tau1_max",
-    "tau1_max_depth": "tau1_max",
-    "txz_max_abs": "txz_max_abs",
-}
+LARGEST = {name: name for name in ("peak_pressure", "tau1_max", "txz_max_abs")}
+LARGEST["tau1_max_depth"] = "tau1_max"
 EXTREMES = {"tau1_max": "tau1", "txz_max_abs": "txz", "von_mises_max": "von_mises"}
 
 

@@ -239,15 +239,13 @@ class Study:
     remark: Callable[[Run, Figure], str] = lambda run, error: ""
 
 
-def studied(
-    studies: tuple[Study, ...], solved: Solved, before: dict[str, Findings], tasks: "Tasks"
-) -> dict[str, Findings]:
-    """Findings of earlier studies, `before`, and of each of these in turn."""
+def studied(studies: tuple[Study, ...], solved: Solved, tasks: "Tasks") -> dict[str, Findings]:
+    """Findings of each of these in turn, which later ones get."""
+    found: dict[str, Findings] = {}
     for study in studies:
         if study.applies(solved):
-            why_not = study.needs(solved)
-            if why_not is None:
-                before[study.name] = study.solve(solved, before, tasks)
+            if (why_not := study.needs(solved)) is None:
+                found[study.name] = study.solve(solved, found, tasks)
             else:
-                before[study.name] = Findings(statements=(Statement(WHY_NOT, why_not),))
-    return before
+                found[study.name] = Findings(statements=(Statement(WHY_NOT, why_not),))
+    return found

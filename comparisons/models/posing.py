@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.hertz import hertz_from_load
 from analytic.exact.westergaard import FlatContact
 from analytic.grid import HatGrid
 from analytic.material import combined_modulus
@@ -18,7 +18,7 @@ from comparisons.models.problem import Levels, Problem, least_of_flow
 from comparisons.models.running_in import run_in_surface
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface, surface_of
+from comparisons.scenes.surface import SceneSurface, smooth_contact, surface_of
 
 SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
 HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
@@ -111,12 +111,10 @@ def _under_roller(
     scene: Scene, surface: SceneSurface, modulus: float, load: float | None
 ) -> Problem:
     """The smooth contact, and how far that of the scene may reach."""
-    radius, value = scene.roller.radius, scene.load.value
-    if scene.load.kind == "hertz_peak_pressure":
-        hertz = hertz_from_peak_pressure(value, radius, modulus)
+    if scene.load.kind == "approach":
+        hertz = hertz_from_load(load, scene.roller.radius, modulus)
     else:
-        load = value if scene.load.kind == "per_length" else load
-        hertz = hertz_from_load(load, radius, modulus)
+        hertz = smooth_contact(scene)
     _check_layers(scene, hertz.half_width)
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
     plastic, body = scene.finite_element.plastic, scene.body

@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactError
-from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from analytic.profile import Profile
 from analytic.running_in import run_in
@@ -14,7 +14,7 @@ from analytic.surface.roughness import roughness, shortest_wavelength
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import as_written, with_unit
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import SceneSurface
+from comparisons.scenes.surface import SceneSurface, smooth_contact
 
 # Of the shortest wave: 1.5 % of the volume moved on ground surfaces. Twice as many would leave
 # 0.4 %, and edges of plateaus so sharp that both models take one level more to resolve them.
@@ -33,9 +33,7 @@ def run_in_surface(scene: Scene, surface: SceneSurface) -> SceneSurface:
         return surface
     radius = scene.roller.radius
     modulus = combined_modulus(scene.roller.material, scene.body.material)
-    load = settings.load or scene.load.value  # its own, or the scene's
-    if settings.load is None and scene.load.kind != "per_length":
-        load = hertz_from_peak_pressure(load, radius, modulus).load_per_length
+    load = settings.load or smooth_contact(scene).load_per_length  # its own, or the scene's
     half_width = hertz_from_load(load, radius, modulus).half_width
     wanted = min(_wanted(profile), half_width / SMOOTH_HATS)
     wanted = max(wanted, 2.0 * half_width / MOST_HATS)

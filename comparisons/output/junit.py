@@ -6,19 +6,15 @@ from typing import Literal
 from xml.etree import ElementTree
 
 from comparisons.drawing.tables import line_of
-from comparisons.figures.figure import Verdict
+from comparisons.figures.figure import FAILED, PASSED, Verdict
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
 from comparisons.studies import meaning
 
 Result = Literal["passed", "failure", "error", "skipped"]
-RESULTS: dict[Verdict, Result] = {
-    "agree": "passed",
-    "holds": "passed",
-    "differ": "failure",
-    "fails": "failure",
-    "inconclusive": "skipped",  # neither red nor green, and shown with its reason
-}
+# An inconclusive one is neither red nor green, and shown with its reason.
+RESULTS: dict[Verdict, Result] = {"inconclusive": "skipped"}
+RESULTS |= dict.fromkeys(PASSED, "passed") | dict.fromkeys(FAILED, "failure")
 
 
 @dataclass(frozen=True)

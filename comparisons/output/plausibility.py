@@ -7,15 +7,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.material import combined_modulus
 from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import as_written, significant, with_unit
 from comparisons.judging.study import Run
 from comparisons.scenes.materials import solids
 from comparisons.scenes.scene import Scene
-from comparisons.scenes.surface import ProfileInfo, SceneSurface
+from comparisons.scenes.surface import ProfileInfo, SceneSurface, smooth_contact
 
 LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
 SOFTEST, STIFFEST = 1e3, 1.5e12  # [Pa] Young's modulus: gels, diamond
@@ -102,9 +100,7 @@ def _of_solids(scene: Scene) -> Iterator[str]:
 def _of_load(scene: Scene) -> Iterator[str]:
     if scene.load.kind == "approach" or scene.periodic:
         return
-    hertz = hertz_from_load if scene.load.kind == "per_length" else hertz_from_peak_pressure
-    modulus = combined_modulus(scene.body.material, scene.roller.material)
-    smooth = hertz(scene.load.value, scene.roller.radius, modulus)
+    smooth = smooth_contact(scene)
     ratio = smooth.half_width / scene.roller.radius
     if LIGHTEST <= ratio <= HEAVIEST:
         return

@@ -25,7 +25,6 @@ import numpy as np
 
 from comparisons.common.errors import InputError, nearest, one_line, printable
 from comparisons.common.numbers import finite
-from comparisons.common.provenance import as_json
 from comparisons.figures.convergence import Convergence
 from comparisons.figures.figure import (
     Column,
@@ -184,11 +183,6 @@ class Result(Found, Printed):
 
 def result_of(run: Run) -> Result:
     return Result(**said_of(run))
-
-
-def write_result(result: Result, folder: Path) -> None:
-    """Write result.json."""
-    (folder / FILE).write_text(as_json(result.result), encoding="utf-8")
 
 
 def said_of(run: Run) -> dict[str, object]:

@@ -109,9 +109,8 @@ def solve_scene(
     try:
         with _tasks_of(scene, models) as tasks:
             problem, plan = posed(scene, surface, models, known.levels, callback, tasks)
-            scene_now = replace(unsolved(problem, plan), answers=known.answers, opens=opens)
-            scene_now = replace(scene_now, all_methods=known.all_methods)
-            return _solve(scene_now, out, callback, tasks)
+            how = {"answers": known.answers, "opens": opens, "all_methods": known.all_methods}
+            return _solve(replace(unsolved(problem, plan), **how), out, callback, tasks)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except ProcessEnded as error:
@@ -138,13 +137,28 @@ def posed(
 ) -> tuple[Problem, Plan]:
     """The problem of a scene on its surface as measured, and the plan of the run that solves it.
     `tasks` solve the finite elements that this takes; None: this process."""
-    stages = Stages(callback)
+    stages, tasks = Stages(callback), tasks or Tasks()
     if scene.running_in is not None:
         with stages.stage("running-in", "running the surface in"):
             surface = run_in_surface(scene, surface)
     with stages.stage("set-up", "finding the reach of the contact"):
-        problem = _problem(scene, surface, models, levels, tasks or Tasks())
+        if scene.load.kind != "approach":
+            problem = problem_of(scene, surface, levels=levels)
+        elif "finite_element" in models:
+            tasks.add("approach", _approached, scene, surface, levels, urgency=AT_ONCE)
+            problem = tasks.result("approach")
+        else:
+            raise SceneError(
+                f"{scene.source}: load.approach: needs finite elements to find its load; "
+                "allowed with the half-plane alone is per_length or hertz_peak_pressure"
+            )
     return problem, make_plan(problem, models)
+
+
+def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels | None) -> Problem:
+    from comparisons.models.finite_element.level import problem_of_approach
+
+    return problem_of_approach(scene, here.callback, surface, levels)
 
 
 def planned(scene: Scene, surface: SceneSurface, models: tuple[str, ...]) -> list[str]:
@@ -167,30 +181,6 @@ def _begin(scene: Solved, tasks: Tasks, solved: Solved) -> None:
     for study in STUDIES:
         if study.applies(scene) and study.needs(scene) is None:
             study.begin(solved, tasks)
-
-
-def _problem(
-    scene: Scene,
-    surface: SceneSurface,
-    models: tuple[str, ...],
-    levels: Levels | None,
-    tasks: Tasks,
-) -> Problem:
-    if scene.load.kind != "approach":
-        return problem_of(scene, surface, levels=levels)
-    if "finite_element" not in models:
-        raise SceneError(
-            f"{scene.source}: load.approach: needs finite elements to find its load; "
-            "allowed with the half-plane alone is per_length or hertz_peak_pressure"
-        )
-    tasks.add("approach", _approached, scene, surface, levels, urgency=AT_ONCE)
-    return tasks.result("approach")
-
-
-def _approached(here: Here, scene: Scene, surface: SceneSurface, levels: Levels | None) -> Problem:
-    from comparisons.models.finite_element.level import problem_of_approach
-
-    return problem_of_approach(scene, here.callback, surface, levels)
 
 
 def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
@@ -216,7 +206,7 @@ def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: T
     try:
         begin(scene)
         solved = refined(scene, tasks, begin, say)
-        findings = studied(STUDIES, solved, {}, tasks)
+        findings = studied(STUDIES, solved, tasks)
     except (ContactError, FemError, InputError, MeshError):
         tasks.kept.discard()
         raise

@@ -10,6 +10,7 @@ import numpy as np
 from comparisons.common.errors import one_line
 from comparisons.common.files import REPORT, published, write_whole
 from comparisons.common.progress import ProgressCallback, Step
+from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Here, tasks_of_copies
 from comparisons.drawing.blocks import attempted
 from comparisons.judging.study import Run
@@ -18,7 +19,7 @@ from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
 from comparisons.output.page import LOADS, PAGE
 from comparisons.output.result import FILE as RESULT
-from comparisons.output.result import result_of, write_result
+from comparisons.output.result import result_of
 from comparisons.studies import STUDIES
 from meshes.block import BlockMesh
 
@@ -45,7 +46,7 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
             tasks.result(key)
         files = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
         record = found.record | {"files": sorted([*files, RESULT, REPORT])}
-        write_result(replace(found, record=record), folder)
+        write_whole(folder / RESULT, as_json(replace(found, record=record).result))
     callback("drawing the report")
     page = attempted("report", lambda: import_module(PAGE).render(outcome))
     if drawn := isinstance(page, str):

@@ -121,8 +121,7 @@ class SolidName(FieldType):
     """The name of a solid, or one of its other names; it is read as the first."""
 
     def read(self, entry: object) -> str:
-        solid = solid_named(entry) if isinstance(entry, str) else None
-        if solid is None:
+        if (solid := solid_named(entry)) is None:
             hint = f"; {names_for(entry)}" if isinstance(entry, str) else ""
             raise ValueError(f"is {describe(entry)}, which is no known solid{hint}")
         return solid.name
@@ -162,9 +161,9 @@ def _key(name: str) -> str:
     return re.sub(r"[\s_-]", "", name).casefold()
 
 
-def solid_named(name: str) -> Solid | None:
+def solid_named(name: object) -> Solid | None:
     """The solid of that name or other name, with its norm or without; None if there is none."""
-    first = _names().get(_key(name))
+    first = _names().get(_key(name)) if isinstance(name, str) else None
     return None if first is None else solids()[first]
 
 

@@ -1,6 +1,7 @@
 """The sections of a scene that both models need: bodies, load, fields, tolerances, resolution."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from math import inf
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -15,7 +16,6 @@ from comparisons.common.units import (
     MEMORY,
     PRESSURE,
     TIME,
-    Dimension,
     UnitError,
     to_si,
 )
@@ -79,8 +79,7 @@ class ElasticSection(SceneSection):
     @model_validator(mode="before")
     @classmethod
     def _follow_solid(cls, table: object) -> object:
-        name = table.get("material") if isinstance(table, Mapping) else None
-        solid = solid_named(name) if isinstance(name, str) else None
+        solid = solid_named(table.get("material")) if isinstance(table, Mapping) else None
         if solid is None or table.get("rigid") is True:
             return table
         moduli = {field: solid.values[field].value for field in ELASTIC if field in solid.values}
@@ -142,17 +141,10 @@ def _law_of(solid: Solid, table: Mapping) -> dict[str, object]:
         return {}
     if "murnaghan" in table:
         return {"law": solid.law.name}
-    if not all(solid.agrees(field, _in_si(table[field], ELASTIC[field])) for field in ELASTIC):
-        return {}
-    return {"law": solid.law.name, "murnaghan": dict(zip("lmn", constants, strict=True))}
-
-
-def _in_si(value: object, dimension: Dimension) -> float | None:
-    """Value in SI; None for what is no such quantity, which its field then refuses."""
-    try:
-        return to_si(value, dimension)
-    except UnitError:
-        return None
+    with suppress(UnitError):  # of what is no such quantity, which its field then refuses
+        if all(solid.agrees(field, to_si(table[field], ELASTIC[field])) for field in ELASTIC):
+            return {"law": solid.law.name, "murnaghan": dict(zip("lmn", constants, strict=True))}
+    return {}
 
 
 class HubSection(SceneSection):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from numpy import diff
 
-from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
 from analytic.profile import Profile
 from analytic.running_in import RunIn
@@ -182,6 +182,13 @@ def scene_key(scene: SceneBase, surface: SceneSurface) -> list:
     return [surface.completed(scene.tables), traced]
 
 
+def smooth_contact(scene: SceneBase) -> HertzContact:
+    """Hertz's contact under the load per length of a scene, or to its peak pressure."""
+    hertz = hertz_from_load if scene.load.kind == "per_length" else hertz_from_peak_pressure
+    modulus = combined_modulus(scene.body.material, scene.roller.material)
+    return hertz(scene.load.value, scene.roller.radius, modulus)
+
+
 def _sinusoid_length(scene: SceneBase) -> float:
     """Length [m] of a sinusoid that outlasts its contact, and the roller's way while it runs in.
     Crests touch where the roller is no higher than Hertz' compression and the waves make up
@@ -190,9 +197,7 @@ def _sinusoid_length(scene: SceneBase) -> float:
     if load.kind == "approach":
         half_width = sqrt(2.0 * radius * load.value)
     else:
-        hertz = hertz_from_load if load.kind == "per_length" else hertz_from_peak_pressure
-        modulus = combined_modulus(scene.body.material, scene.roller.material)
-        half_width = hertz(load.value, radius, modulus).half_width
+        half_width = smooth_contact(scene).half_width
     widest = hypot(half_width, sqrt(4.0 * radius * scene.profile.amplitude))
     length = max(SINUSOID_REACH * widest, SINUSOID_WAVES * scene.profile.wavelength)
     if scene.running_in is not None:

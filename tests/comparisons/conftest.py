@@ -146,7 +146,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Run:
         patch("comparisons.judging.effects.sampling.sampling_changes", lambda *_: sizes),
         patch("comparisons.judging.ladder.cost.other_elements", lambda *_: {}),
     ):
-        findings = studied(STUDIES, solved, {}, Tasks())
+        findings = studied(STUDIES, solved, Tasks())
     return Run(solved, findings, record_of(solved, findings), Path("results/made"), STUDIES)
 
 

@@ -73,9 +73,8 @@ def pressed(
     height: np.ndarray, load: float, grid: HatGrid, mesh: BlockMesh, degree: int = 2
 ) -> tuple[FiniteElementCompliance, ContactSolution]:
     """A rigid flat on heights (n,) [m] of a body, by way of a half-plane."""
-    hats = grid.pitch * np.arange(grid.first - 1, grid.last + 2)
     body = elastic_body(mesh, PRESSED, Support("bonded", "fixed"), degree=degree)
-    compliance = FiniteElementCompliance(body, hats)
+    compliance = FiniteElementCompliance(body, grid.hats)
     model, constraints = HalfPlane(grid.count, grid.pitch, 1.0), Constraints(load=load)
     gap = -grid.pitch * height
     return compliance, solve_with_model(compliance, model, gap, grid.weights, constraints)
@@ -148,7 +147,7 @@ def hertz_figures(peak: float = PEAK, **tables: dict) -> CaseFigures:
     """Figures of the ordinary scene with other fields, whose peak may be wrong by `peak`."""
     problem, level = solved(tables)
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
-    return level_figures(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
+    return level_figures(level, *peak_and_length(level, exact, (peak, LENGTH)))
 
 
 def shear_figures(**tables: dict) -> CaseFigures:

@@ -79,7 +79,7 @@ def hertz_figures(
     (shape, length), reference = ordinary_shape(), "the ordinary case"
     scaled = contact.contact_length / half_width
     return contact.figures(
-        *peak_and_length(contact, (peak, half_width), HIGHS, "Hertz, exact"),
+        *peak_and_length(contact, (peak, half_width), HIGHS),
         deviation(contact.pressure / peak, shape, "shape", SAME, reference),
         relative_error("scaled length", scaled, length, 1e-7, reference),
         dense_violation(contact, hertz.combined_modulus),

@@ -176,15 +176,13 @@ def deviation(
 
 
 def peak_and_length(
-    contact: LoadedContact | Level,
-    exact: tuple[float, float],
-    highs: tuple[float, float],
-    reference: str,
+    contact: LoadedContact | Level, exact: tuple[float, float], highs: tuple[float, float]
 ) -> CaseFigures:
-    """Relative errors of peak pressure and contact length; `exact` peak [Pa] and half-width [m]."""
+    """Relative errors of peak pressure and contact length; Hertz's `exact` peak [Pa] and half-width
+    [m]."""
     values = contact.solution.pressure.max(), 0.5 * contact.contact_length
     named = zip(("peak pressure", "contact length"), values, exact, highs, strict=True)
-    return tuple(relative_error(*three, reference) for three in named)
+    return tuple(relative_error(*one, "Hertz, exact") for one in named)
 
 
 def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> Figure:

@@ -126,20 +126,13 @@ class Pair:
 
     def as_dict(self) -> dict:
         stated = self.figure.uncertainty
-        return {
-            "case": self.case,
+        names = "case", "kind", "table", "model", "quantity", "exact", "error", "covered"
+        return {name: getattr(self, name) for name in names} | {
             "source": self.reference,
-            "kind": self.kind,
-            "model": self.model,
-            "quantity": self.quantity,
+            "converged": self.converged,
             "levels": self.figure.levels,
-            "exact": self.exact,
             "scale": self.figure.scale,
             "uncertainty": {"total": stated.total} | {k: stated.parts.get(k, 0.0) for k in PARTS},
-            "converged": self.converged,
-            "table": self.table,
-            "error": self.error,
-            "covered": self.covered,
             "overestimation_ratio": self.overestimation,
             "behaviour": stated.convergence.behaviour,
             "order": stated.convergence.order,
@@ -175,9 +168,7 @@ def coverage(pairs: Iterable[Pair]) -> Coverage:
     return Coverage(len(pairs), len(informative), share, median, high)
 
 
-def coverage_rows(
-    pairs: Sequence[Pair], fewest: int = FEWEST, fewest_rough: int = FEWEST_ROUGH
-) -> Iterator[Row]:
+def coverage_rows(pairs: Sequence[Pair], fewest: int, fewest_rough: int) -> Iterator[Row]:
     """Enough informative figures, covered often enough, by uncertainties that are not too large:
     of all contacts, and of the rough ones."""
     yield _coverage_row("all figures", pairs, MOST_OVERESTIMATION, fewest)

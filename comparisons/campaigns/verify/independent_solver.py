@@ -40,10 +40,9 @@ def independent_figures(name: str) -> CaseFigures:
     grid = level.grid
     # the bodies that the level was solved on, by the patches that its mesh is refined at
     bodies = bodies_of(problem, refinement, level.patches, Stages(), body_cache)
-    hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
     load = problem.hertz.load_per_length
     other = solve_variational_inequality(
-        [(body, hat_forces(body.surface, hats)) for body in bodies.all],
+        [(body, hat_forces(body.surface, grid.hats)) for body in bodies.all],
         grid.hat_integrals(problem.finite_element_gap, problem.knots),
         grid.weights,
         load,

@@ -87,7 +87,13 @@ def operator_figures(case: OperatorContact, elements: float) -> CaseFigures:
     grid, solution = levels[-1]
 
     def read(level: tuple[HatGrid, ContactSolution]) -> dict[str, float]:
-        values = _values(case, *level)
+        grid, solution = level
+        patches = contact_patches(grid.x, solution.pressure, solution.gap)
+        values = {
+            "peak_pressure": float(solution.pressure.max()),
+            "contact_length": float((patches[:, 1] - patches[:, 0]).sum()),
+            "mean_gap": float(solution.gap.mean()),
+        }
         return {name: values[name] for name in case.exact}
 
     def how(name: str, value: float) -> Reading:
@@ -112,15 +118,6 @@ def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSol
     weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
     load = Constraints(load=case.load)
     return grid, solve_contact(case.make(grid.count, grid.pitch), weighted_gap, grid.weights, load)
-
-
-def _values(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
-    patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return {
-        "peak_pressure": float(solution.pressure.max()),
-        "contact_length": float((patches[:, 1] - patches[:, 0]).sum()),
-        "mean_gap": float(solution.gap.mean()),
-    }
 
 
 def _contact(case: ExactContact) -> OperatorContact:

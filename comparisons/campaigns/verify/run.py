@@ -5,9 +5,10 @@ and of contacts on the library's operators (`operators`), smooth and rough (`rou
 orders (`coverage`); manufactured solutions (`manufactured`); the contact by PETSc's own solver
 (`independent_solver`). Out: JSON, JUnit, the terminal's tables."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from itertools import product
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,7 +21,6 @@ from comparisons.campaigns.cases import (
     Row,
     Trial,
     carry_out,
-    check_places,
     rows_table,
 )
 from comparisons.campaigns.verify.coverage import (
@@ -112,15 +112,17 @@ def _cells(group: Coverage) -> tuple[str, ...]:
     return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
 
 
-def everything() -> list[Trial]:
+def everything() -> Iterator[Trial]:
+    check_finite_elements()
     from comparisons.campaigns.verify.independent_solver import independent_cases
     from comparisons.campaigns.verify.manufactured import BODIES, manufactured_cases
 
-    smooth = [*scene_cases(exact_scenes()), *operator_cases(operator_contacts())]
-    on_operators = operator_cases(rough_operator_contacts(), ELEMENTS)
-    rough = [*scene_cases(rough_scenes()), *on_operators]
-    bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
-    return [*smooth, *rough, *manufactured_cases(bodies), *independent_cases()]
+    yield from scene_cases(exact_scenes())
+    yield from operator_cases(operator_contacts())
+    yield from scene_cases(rough_scenes())
+    yield from operator_cases(rough_operator_contacts(), ELEMENTS)
+    yield from manufactured_cases(product(BODIES, DEGREES))
+    yield from independent_cases()
 
 
 def verify(
@@ -135,9 +137,6 @@ def verify(
 
     cases   None is everything
     fewest  informative figures that there must be, in all and of rough contacts"""
-    check_places("verify", out, junit)  # before the cases, which take seconds
-    if cases is None:
-        check_finite_elements()
 
     def concluded(command: str, rows: tuple[Row, ...], seconds: float) -> Verification:
         return verification((*rows, *order_rows(rows)), seconds, fewest)

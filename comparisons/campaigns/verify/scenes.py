@@ -241,7 +241,7 @@ def scene_figures(scene: ExactScene, model: str) -> Iterator[Figure]:
     for quantity, exact in scene.exact.items():
         yield from compared(figures.one(source=model, quantity=quantity), exact, *common)
     if scene.half_plane:
-        errors = Figures(studied(JUDGED, solved, {}, tasks)[MODEL_ERROR].figures)
+        errors = Figures(studied(JUDGED, solved, tasks)[MODEL_ERROR].figures)
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
             error = errors.one(against=WHOLE, quantity=quantity, friction=friction)

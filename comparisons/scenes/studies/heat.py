@@ -69,8 +69,7 @@ class HeatSection(SceneSection):
             return tables
         for body in ("body", "roller", "coating"):
             section = tables.get(body)
-            name = section.get("material") if isinstance(section, Mapping) else None
-            solid = solid_named(name) if isinstance(name, str) else None
+            solid = solid_named(section.get("material")) if isinstance(section, Mapping) else None
             names = CONSTANTS
             if heat.get("stresses") is True and body != "roller":
                 names = (*CONSTANTS, "expansion")

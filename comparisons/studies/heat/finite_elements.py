@@ -59,9 +59,8 @@ def solved_heat(
 ) -> tuple[HeatedContact, Callable[[np.ndarray], np.ndarray]]:
     """`finite_element_heat`, and the rough body's temperature (k,) [K] at points (k, 2) [m] by its
     shape functions; beyond its mesh a moving half-plane has a line source's, a layer its end's."""
-    x, heat, pitch = level.grid.x, heat_of_friction(problem, level), level.grid.pitch
-    x = np.concatenate([[x[0] - pitch], x, [x[-1] + pitch]])
-    heat = np.pad(heat, 1)
+    x, pitch = level.grid.hats, level.grid.pitch
+    heat = np.pad(heat_of_friction(problem, level), 1)
     contact = (heat[1:] > 0.0) | (heat[:-1] > 0.0)
     first, after = runs_of(contact)
     patches = np.column_stack([x[first], x[after]])

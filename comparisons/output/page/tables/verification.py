@@ -29,12 +29,8 @@ from comparisons.judging.study import Run
 from comparisons.models.level import Solution
 
 TO_SIGN = ("name, place, date", "signature")  # by hand
-PARTS = {
-    "discretisation": "discretisation",
-    "iteration": "iteration",
-    "domain": "far boundary",
-    "increments": "increments",
-}
+PARTS = {name: name for name in ("discretisation", "iteration", "domain", "increments")}
+PARTS["domain"] = "far boundary"
 REPEATED = ("domain", "increments")  # parts by a coarsest level that is solved again
 WORDING = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 _BOUNDS = {"lowest": LOWEST_ORDER, "regular": REGULAR, "irregular": IRREGULAR}

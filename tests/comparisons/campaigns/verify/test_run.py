@@ -69,7 +69,7 @@ class TestCases:
     def test_there_are_enough_of_each_kind_with_names_of_their_own(self, monkeypatch):
         anything = dict.fromkeys(("tau1", "txz"), Extremum(0.0, 0.0, 0.0))  # figures are counted
         monkeypatch.setattr(ManufacturedContact, "extremes", lambda *_: anything)
-        cases = run.everything()
+        cases = list(run.everything())
         exact = [case for case in cases if case.group not in ("manufactured", "independent solver")]
         assert len({(case.model, case.group, case.name) for case in cases}) == len(cases)
         assert pickle.dumps([case.solve for case in cases])  # for other processes

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scenes import KNOWN_STEEL, half_plane_at, run_of
 
+from comparisons.common.provenance import as_json
 from comparisons.common.tasks import Tasks
 from comparisons.judging.effects.sampling import sampling_changes
 from comparisons.judging.model_error.show import not_modelled_line
@@ -12,7 +13,7 @@ from comparisons.judging.study import Case, Solved
 from comparisons.judging.verdict.headline import headline
 from comparisons.models.level import Solution
 from comparisons.models.problem import Levels
-from comparisons.output.result import read_result, result_of, write_result
+from comparisons.output.result import read_result, result_of
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 
@@ -89,7 +90,7 @@ def test_a_trace_of_few_samples_on_the_contact_holds_within_nothing(flank, tmp_p
     assert "tolerance" not in said.next
     [peak, _] = run.model_errors
     assert abs(peak.value) + peak.numerical < 2e-3  # half-planes are no worse on few samples
-    write_result(result_of(run), tmp_path)
+    (tmp_path / "result.json").write_text(as_json(result_of(run).result), encoding="utf-8")
     read = read_result(tmp_path).figures
     assert read.one(study="model_error", quantity="peak_pressure").unknown == peak.unknown
 
