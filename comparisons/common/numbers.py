@@ -28,13 +28,9 @@ class Scale:
     factor: float
     name: str
 
-    def number(self, value: float | None, digits: int = 4) -> str:
-        """The figure [SI] in this unit, without the unit."""
-        return significant(None if value is None else value / self.factor, digits)
-
     def text(self, value: float | None, digits: int = 4) -> str:
         """The figure [SI] with the unit."""
-        return self.named(self.number(value, digits))
+        return self.named(significant(None if value is None else value / self.factor, digits))
 
     def named(self, number: str) -> str:
         return f"{number} {self.name}" if self.name and number != UNKNOWN else number

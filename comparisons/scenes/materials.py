@@ -50,8 +50,7 @@ METAL, ANY = "metal", "solid"
 WIDER = {
     **dict.fromkeys(("steel", "iron", "aluminium", "copper", "titanium"), METAL),
     **dict.fromkeys(("refractory metal", "magnesium"), METAL),
-    "glassy polymer": "polymer",
-    "semicrystalline polymer": "polymer",
+    **dict.fromkeys(("glassy polymer", "semicrystalline polymer"), "polymer"),
 }
 RUBBER = "rubber"
 # Moduli and ratios of one kind of solid scatter by so much: steels from 193 to 213 GPa, glasses

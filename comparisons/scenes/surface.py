@@ -131,9 +131,7 @@ class SceneSurface:
         return {
             "name": scene.name,
             "title": scene.title,
-            "profile": None,
-            "running_in": None,
-            "stress": None,
+            **dict.fromkeys(("profile", "running_in", "stress")),
             **self.completed(scene.tables),
             "profile_info": self.info.as_dict() if self.info else None,
         }

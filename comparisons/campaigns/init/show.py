@@ -151,16 +151,13 @@ def _trace(axes: "Axes", profile: Profile) -> None:
     ends = [part[[np.argmin(height[part]), np.argmax(height[part])]] for part in parts]
     kept = np.unique(np.concatenate([*ends, [0, len(x) - 1]]))
     axes.plot(x[kept] / along.factor, height[kept] / across.factor, linewidth=0.8)
-    axes.set_title("the trace as pressed")
-    axes.set_xlabel(f"x on the trace [{along.name}]")
-    axes.set_ylabel(f"height [{across.name}]")
+    labels = {"xlabel": f"x on the trace [{along.name}]", "ylabel": f"height [{across.name}]"}
+    axes.set(title="the trace as pressed", **labels)
 
 
 def _spectrum(axes: "Axes", profile: Profile) -> None:
     wavenumber, density = power_spectrum(profile)
-    axes.set_title("power spectral density")
-    axes.set_xlabel("wavelength [m]")
-    axes.set_ylabel("density [m³]")
+    axes.set(title="power spectral density", xlabel="wavelength [m]", ylabel="density [m³]")
     if np.any(density > 0.0):
         kept = density > 10.0**-DECADES * density.max()
         axes.loglog(1.0 / wavenumber[kept], density[kept], linewidth=0.8)
@@ -171,6 +168,5 @@ def _bearing(axes: "Axes", profile: Profile) -> None:
     share, height = bearing_curve(profile)
     across = scale_of(height, "m")
     axes.plot(100.0 * share, height / across.factor)
-    axes.set_title("bearing curve")
+    axes.set(title="bearing curve", ylabel=f"height [{across.name}]")
     axes.set_xlabel("share of the length that is as high [%]")
-    axes.set_ylabel(f"height [{across.name}]")

@@ -289,8 +289,7 @@ def picture(run: Run) -> style.Picture | None:
     rows, floors = findings.table(ROWS).rows(), findings.data.values()
     shown = [row[name] for row in rows for name in names if row[name] is not None]
     shown = [size for size in (*shown, *floors) if LEAST < size < math.inf] or [LEAST]
-    panels[0].set_ylim(0.3 * min(shown), 3.0 * max(shown))
-    panels[0].set_ylabel("error / reference")
+    panels[0].set(ylim=(0.3 * min(shown), 3.0 * max(shown)), ylabel="error / reference")
     for axis in (panels[0].xaxis, panels[0].yaxis):
         axis.set_major_formatter(lambda value, _: style.power_of_ten(round(math.log10(value))))
         # all nine take half of the picture's time

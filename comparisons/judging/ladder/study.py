@@ -255,9 +255,9 @@ def blocks(run: Run) -> list[Block]:
     for row, words, errors in _rungs(run):
         worst = deciding(errors)
         size, unsure = error_text(worst.value, worst.total), percent(worst.total)
+        time = with_unit(row["seconds"], "s", 2)
         memory = with_unit(row["peak_memory"], "byte", 2) if row["peak_memory"] else ""
-        judged = label(worst.quantity), size, unsure, worst.verdict
-        rows.append((words, *judged, _time(row), memory))
+        rows.append((words, label(worst.quantity), size, unsure, worst.verdict, time, memory))
     if not rows:
         return []
     head = ("model", "quantity", "error", "uncertainty", "verdict", "time", "memory")
@@ -288,13 +288,9 @@ def _rungs(run: Run) -> list[tuple[dict, str, Figures]]:
 
 
 def _text(row: dict, words: str, errors: Sequence[Figure]) -> str:
-    worst = deciding(errors)
+    worst, time = deciding(errors), with_unit(row["seconds"], "s", 2)
     error = f", {QUANTITIES[worst.quantity].short} {worst.sized(worst.total)}"
-    return f"{words} ({_time(row)}{error if math.isfinite(worst.total) else ''})"
-
-
-def _time(row: dict) -> str:
-    return with_unit(row["seconds"], "s", 2)
+    return f"{words} ({time}{error if math.isfinite(worst.total) else ''})"
 
 
 STUDY = Study(

@@ -17,19 +17,17 @@ from comparisons.scenes.fields import (
     in_si,
     optional,
 )
+from comparisons.scenes.materials import ELASTIC
 from comparisons.scenes.schema.messages import read_field
 
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 FEWEST, MOST = 8, 4096  # samples
 # Inputs that are fields of the scene, with their section; the load is a field of two kinds.
 FIELDS = {
-    "roller_radius": ("roller", "radius"),
-    "roller_youngs_modulus": ("roller", "youngs_modulus"),
-    "roller_poissons_ratio": ("roller", "poissons_ratio"),
-    "body_youngs_modulus": ("body", "youngs_modulus"),
-    "body_poissons_ratio": ("body", "poissons_ratio"),
-    "friction": ("load", "friction"),
-}
+    f"{section}_{field}": (section, field)
+    for section, fields in (("roller", ("radius", *ELASTIC)), ("body", ELASTIC))
+    for field in fields
+} | {"friction": ("load", "friction")}
 OF_PROFILE = ("position", "noise", "tip_radius")
 
 

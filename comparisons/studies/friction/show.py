@@ -125,8 +125,7 @@ def loop_picture(run: Run) -> style.Picture | None:
     for names, (_, along) in distinct({n: (steps, m) for n, m in moved.items()}).items():
         look = {"marker": "o", "markersize": 3, **style.LINES[names[0]]}
         panel.plot(along, path, label=joint_label(names), **look)
-    panel.set_ylabel("Q / μP")
-    panel.set_xlabel(f"displacement of the roller [{unit.name}]")
+    panel.set(xlabel=f"displacement of the roller [{unit.name}]", ylabel="Q / μP")
     legend_above(panel, abreast)
     return style.picture(drawn, caption, caption)
 

@@ -109,18 +109,15 @@ def judged_picture(run: Run) -> style.Picture | None:
     ends = [abs(e.value) + e.numerical + e.not_modelled for e in errors]
     most = max(end / e.tolerance for end, e in zip(ends, errors, strict=True))
     reach = min(max(1.5, 1.1 * most), FARTHEST) if np.isfinite(most) else FARTHEST
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(0.6 - len(errors), 0.85)
+    axes.set(xlim=(-reach, reach), ylim=(0.6 - len(errors), 0.85), yticks=[])
     axes.axvspan(-1.0, 1.0, color="#e8eef2", linewidth=0.0, zorder=0.5)
     for row, error in enumerate(errors):
         _bar(axes, -float(row), error, several=len(run.frictions) > 1)
     rows = -np.arange(float(len(errors)))  # between them the line would cross words
     axes.vlines(0.0 * rows, rows - 0.55, rows + ABOVE, color="#555555", linewidth=0.7)
-    axes.set_yticks([])
     axes.spines["left"].set_visible(False)
     axes.grid(False, axis="y")
-    axes.set_xlabel("model error / tolerance")
-    axes.set_title("within the tolerance: shaded")
+    axes.set(xlabel="model error / tolerance", title="within the tolerance: shaded")
     words = "; ".join(
         f"{label(e.quantity)}, friction {plain(e.friction)}: {e.words()}" for e in errors
     )

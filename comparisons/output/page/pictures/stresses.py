@@ -248,8 +248,7 @@ def _section_picture(run: Run, column: int, words: str) -> style.Picture:
             panel.tick_params(labelbottom=friction == frictions[-1], labelleft=panel is row[0])
         for panel in row:
             panel.set_ylim(0.0, max(p.dataLim.y1 for p in row) * 1.08)
-        row[0].set_ylabel("τ₁/p₀")
-        row[0].set_title(f"friction {plain(friction)}")
+        row[0].set(title=f"friction {plain(friction)}", ylabel="τ₁/p₀")
         largest = (f"{LABELS[n]} {significant(np.nanmax(v), 3)} p₀" for n, (_, v) in curves.items())
         said.append(f"friction {plain(friction)}: {', '.join(largest)}")
     for panel in row:
