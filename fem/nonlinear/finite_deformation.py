@@ -299,7 +299,7 @@ class FiniteCompliance:
         for _ in range(MOST_CORRECTIONS):
             moved, _ = contact.set_back(moved, pressure)
             gap, applied = contact.contact.loaded(moved, pressure)
-            if internal is None:  # of the last pressure's displacement they are known
+            if internal is None:  # else known: the last pressure's, but for a disc's turn since
                 internal = contact.response.force(moved).ravel()
             left = np.where(free, applied - internal, 0.0)
             size = np.linalg.norm(soft * np.where(free, applied, 0.0))
