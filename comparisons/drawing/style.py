@@ -6,6 +6,7 @@ line style, for grey printers.
 
 import base64
 import io
+import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -173,6 +174,11 @@ def whisker(
 def power_of_ten(power: int) -> str:
     """Power of ten as text: matplotlib's own labels are formulas, which it takes a parser for."""
     return "10" + str(power).translate(SUPERSCRIPT)
+
+
+def in_powers_of_ten(value: float, _: int) -> str:
+    """Label of a tick at a power of ten."""
+    return power_of_ten(round(math.log10(value)))
 
 
 def svg(drawn: "Figure") -> str:

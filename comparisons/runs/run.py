@@ -42,7 +42,7 @@ from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels, Problem
 from comparisons.models.running_in import run_in_surface
 from comparisons.output.arrays import traces_of
-from comparisons.output.page import LOADS
+from comparisons.output.page import IMPORTS
 from comparisons.runs.long import expected, told
 from comparisons.runs.refinement import announce, refined
 from comparisons.scenes.scene import Scene
@@ -197,7 +197,7 @@ def _tasks_of(scene: Scene, models: Sequence[str]) -> Tasks:
 def _solve(scene: Solved, out: Path | None, callback: ProgressCallback, tasks: Tasks) -> Run:
     problem, plan = scene.problem, scene.plan
     tasks.kept, tasks.callback = level_cache(out, problem, plan), callback
-    tasks.spare = [] if out is None else [*LOADS]
+    tasks.spare = [] if out is None else [*IMPORTS]
     begin, kept = partial(_begin, scene, tasks), None if out is None else unfinished(out, "run")
 
     def say() -> None:

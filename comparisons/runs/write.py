@@ -17,7 +17,7 @@ from comparisons.judging.study import Run
 from comparisons.models.level import Level, deformed_height
 from comparisons.output.arrays import FILE, RunArrays, levels_by_folder
 from comparisons.output.field_files import field_of, scene_text, write_field
-from comparisons.output.page import LOADS, PAGE
+from comparisons.output.page import IMPORTS, PAGE
 from comparisons.output.result import FILE as RESULT
 from comparisons.output.result import result_of
 from comparisons.studies import STUDIES
@@ -28,7 +28,7 @@ def write_files(outcome: Run, callback: ProgressCallback) -> bool:
     """Write the run's folder: everything but the report, whole and at once; then the report, which
     is drawn when nothing that goes wrong can cost a result. Whether it could be."""
     callback(Step("writing results", 0.0))
-    with published(outcome.directory) as folder, tasks_of_copies(outcome, LOADS) as tasks:
+    with published(outcome.directory) as folder, tasks_of_copies(outcome, IMPORTS) as tasks:
         levels = levels_by_folder(outcome)
         meshed = {name: any(one.mesh for one in of.values()) for name, of in levels.items()}
         first, *others = sorted(levels, key=lambda name: not meshed[name])  # longest first

@@ -291,7 +291,7 @@ def picture(run: Run) -> style.Picture | None:
     shown = [size for size in (*shown, *floors) if LEAST < size < math.inf] or [LEAST]
     panels[0].set(ylim=(0.3 * min(shown), 3.0 * max(shown)), ylabel="error / reference")
     for axis in (panels[0].xaxis, panels[0].yaxis):
-        axis.set_major_formatter(lambda value, _: style.power_of_ten(round(math.log10(value))))
+        axis.set_major_formatter(style.in_powers_of_ten)
         # all nine take half of the picture's time
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     drawn.subplots_adjust(left=0.65 / drawn.get_figwidth(), right=0.985, bottom=0.15, top=0.76)

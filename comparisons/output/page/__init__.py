@@ -6,4 +6,4 @@ from importlib import import_module
 PAGE = "comparisons.output.page.page"
 # Imports of what draws it, none of which takes a tenth of a second.
 _DRAWING = ("", ".backend_bases", ".axes", ".figure", ".backends.backend_svg", ".style")
-LOADS = [partial(import_module, name) for name in (PAGE, *(f"matplotlib{m}" for m in _DRAWING))]
+IMPORTS = [partial(import_module, name) for name in (PAGE, *(f"matplotlib{m}" for m in _DRAWING))]

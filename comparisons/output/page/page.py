@@ -26,7 +26,7 @@ from comparisons.figures.quantity import HYPHENATED
 from comparisons.judging.presentation import parts_of
 from comparisons.judging.study import Run
 from comparisons.judging.verdict.headline import headline
-from comparisons.output.page import LOADS
+from comparisons.output.page import IMPORTS
 from comparisons.output.page.html import STYLES, rendered
 from comparisons.output.page.pictures import answer, contact, problem, refinement, stresses
 from comparisons.output.page.pictures.mesh import mesh_pictures
@@ -122,8 +122,8 @@ def drawn_of(run: Run) -> list[str]:
 def draw(run: Run) -> dict[str, object]:
     """Results of PICTURES, drawn side by side."""
     names = drawn_of(run)
-    for load in LOADS:  # once for all copies
-        load()
+    for step in IMPORTS:  # once for all copies
+        step()
     with drawing(), tasks_of_copies(run) as tasks:
         for name in names:
             tasks.add(name, _drawn, name)

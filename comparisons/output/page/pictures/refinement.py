@@ -1,7 +1,6 @@
 """Refinement of the solution: errors of the judged figures over the size of the elements, each
 beside its formal order."""
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -101,9 +100,7 @@ def _draw(axes: "Axes", figures: list[Figure], pitch: np.ndarray) -> None:
         axes.set_yscale("log")
         low, high = np.log10(axes.get_ylim())
         if np.floor(high) - np.ceil(low) >= 1.0:  # two powers of ten are in view
-            axes.yaxis.set_major_formatter(
-                lambda value, place: style.power_of_ten(round(math.log10(value)))
-            )
+            axes.yaxis.set_major_formatter(style.in_powers_of_ten)
         else:
             ticks = np.outer(10.0 ** np.arange(np.floor(low), high), [1.0, 2.0, 5.0]).ravel()
             ticks = ticks[(ticks >= 10.0**low) & (ticks <= 10.0**high)]
