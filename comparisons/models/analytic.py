@@ -70,13 +70,13 @@ def analytic_level(
     effects: frozenset[str],
     grid: HatGrid,
     stages: Stages,
-    fields: bool = False,
+    fields: int = 0,
 ) -> dict[float, Level]:
     """Solve one level at friction coefficients that share a contact: contact, and with [stress] the
     largest stresses.
 
     effects  that the model has beside the half-plane's assumptions
-    fields   give all stresses on the window, too; of bodies without a layer"""
+    fields   as those of a `Model`; of bodies without a layer"""
     if CAP in effects:
         cap = {"body.hardness": TABOR * problem.scene.body.yield_stress}
         problem = replace(problem, scene=problem.scene.unchecked(cap))
@@ -149,7 +149,7 @@ class _Side:
 
 
 def _stresses(
-    problem: Problem, effects: frozenset[str], level: Level, fields: bool
+    problem: Problem, effects: frozenset[str], level: Level, fields: int
 ) -> Iterator[StressResult]:
     """Extremes off the grid, of both sides of an interface, and for `fields` all on the window."""
     x, pressure = level.grid.unfolded_x, level.grid.unfolded(level.solution.pressure)
@@ -165,7 +165,7 @@ def _stresses(
         )
         for side in sides
     ]
-    shown = field_on(level, problem.window, sides[0].rest) if fields else None
+    shown = fields and field_on(level, problem.window.every(fields), sides[0].rest)
     for friction in frictions:
         first, *others = (by_friction[friction] for by_friction in largest)
         for name, of_side in chain.from_iterable(map(dict.items, others)):
@@ -173,7 +173,7 @@ def _stresses(
             first[name] = np.where(of_side[0] > first[name][0], of_side, first[name])
         extremes = {name: Extremum.highest(cells) for name, cells in first.items()}
         maxima = {name: first[name] for name in ("tau1", "txz")}
-        field = None if shown is None else shown.at(friction).stress
+        field = shown.at(friction).stress if shown else None
         yield StressResult(friction, extremes, maxima, field)
 
 

@@ -78,7 +78,8 @@ class StressResult:
     extremes: dict[str, Extremum]
     # largest tau1 and |txz| of each of the problem's asperities: value [Pa], x and z [m] (3, k)
     maxima: dict[str, np.ndarray]
-    field: StressState | None = None  # (m, k) on the common window, where that is asked for
+    # (m, k) on the common window, where that is asked for: on all of it of the finest level
+    field: StressState | None = None
 
     @property
     def tau1(self) -> np.ndarray | None:

@@ -30,7 +30,8 @@ class Model:
     effects: frozenset[str] = frozenset()
     half_block: bool = False  # the far boundary of an unbounded body is at half the distance
     times: int = 1  # as long increments of plastic flow
-    fields: bool = False  # give all stresses on the window and the mesh, not the largest alone
+    # give all stresses on the mesh and on every so many-th x of the window; 0: the largest alone
+    fields: int = 0
     label: str = ""  # of its stages
     # fields of the scene that it sets, and the least size [m] of an unbounded body; its name tells
     # such models apart
@@ -106,7 +107,8 @@ class Model:
     ) -> str:
         """Make a level known to the tasks, which give it by the key that is returned. One that is
         expected to take less than `short` [s] is solved at once, in this process."""
-        key = "-".join((self.name, *self._checks, str(number)))
+        thinned = (f"every_{self.fields}",) if self.fields > 1 else ()
+        key = "-".join((self.name, *self._checks, *thinned, str(number)))
         cost = self.cost(problem, number, patches)
         tasks.add(
             key,
@@ -137,7 +139,7 @@ class Model:
         return Refinement(pitch, self.half_block, self.times * TRAVEL)
 
 
-def scene_model(name: str, problem: Problem, fields: bool = False) -> Model:
+def scene_model(name: str, problem: Problem, fields: int = 0) -> Model:
     """One of the scene's own MODELS."""
     if name == "half_plane":
         return Model(name, "analytic", problem.half_plane_effects, fields=fields)

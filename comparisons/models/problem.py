@@ -8,6 +8,7 @@ a = L/2, p0 is the mean pressure, P = p0 L."""
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -31,6 +32,7 @@ LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded 
 # Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
 # elements beyond it, which are as wide as a smooth contact's are few.
 MARGIN, SMOOTH_MARGIN = 0.15, 0.5
+NORM_STEP, LEAST_COLUMNS = 4, 16  # a power of two, and the columns that are left at least
 WIDTHS_DEEP = 3.0  # of a body of finite width: below that its sides have made all stresses even
 
 
@@ -47,6 +49,19 @@ class Window:
         """Whether x [m] lie where extremes are searched."""
         return (x >= self.ends[0]) & (x <= self.ends[1])
 
+    @property
+    def norm_step(self) -> int:
+        """Of so many x the norm of a difference takes one, which moves it by a part in 500."""
+        return NORM_STEP if len(self.x) > LEAST_COLUMNS * NORM_STEP else 1
+
+    def columns(self, step: int) -> slice:
+        """Every `step`-th x, a power of two: still points of the levels whose own all x are."""
+        return slice(-round(self.x[0] / self._spacing) % step, None, step)
+
+    def every(self, step: int) -> Self:
+        """The window of these columns."""
+        return replace(self, x=self.x[self.columns(step)])
+
     def stride(self, pitch: float) -> int:
         """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
         return 2 ** max(0, self._octaves(pitch))
@@ -56,7 +71,11 @@ class Window:
         return 2 ** max(0, -self._octaves(pitch))
 
     def _octaves(self, pitch: float) -> int:
-        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
+        return round(np.log2(self._spacing / pitch))
+
+    @property
+    def _spacing(self) -> float:
+        return (self.x[-1] - self.x[0]) / (len(self.x) - 1)
 
 
 @dataclass(frozen=True)

@@ -90,7 +90,7 @@ class _Levels:
     def __init__(self, scene: Solved, tasks: Tasks) -> None:
         self.scene, self.problem, self.plan, self.tasks = scene, scene.problem, scene.plan, tasks
         names = scene.plan.models
-        self.models = {name: scene_model(name, scene.problem, fields=True) for name in names}
+        self.models = {name: scene_model(name, scene.problem) for name in names}
         elements = self.models.get("finite_element")
         self.checks: dict[str, list[Model]] = {}  # by the part of an uncertainty that they show
         if self.plan.domain_check:
@@ -98,6 +98,9 @@ class _Levels:
         if self.plan.increments_check:
             self.checks["increments"] = [replace(elements, times=times) for times in LONGER]
         self.levels: dict[str, list[Levels]] = {name: [] for name in names}
+        # the first finite elements with all of their fields: they may be the finest; of a rough
+        # surface every level's are read
+        self.shown = 1 if scene.problem.scene.profile else len(scene.problem.pitches)
         self.patches: np.ndarray | None = None  # of contact, by which costs are expected
         # [bytes] that the machine has to give at the start
         self.machine = machine_memory()
@@ -120,7 +123,9 @@ class _Levels:
             if self.problem.scene.finite_element.plastic:
                 self.patches = flowing_contact(self.problem)
         if "finite_element" in self.models:
-            for number in reversed(self.affordable(asked)):  # idle processes begin with the longest
+            affordable = self.affordable(asked)
+            self.shown = min(self.shown, max(affordable, default=1))
+            for number in reversed(affordable):  # idle processes begin with the longest
                 self.add(self.models["finite_element"], number)
             for model in chain.from_iterable(self.checks.values()):
                 self.add(model)
@@ -132,7 +137,9 @@ class _Levels:
 
     def add(self, model: Model, number: int = 1) -> str:
         """The key of a level's task."""
-        is_half_plane = model.name == "half_plane"
+        is_half_plane, window = model.name == "half_plane", self.problem.window
+        is_thinned = window is not None and not is_half_plane and number < self.shown
+        model = replace(model, fields=window.norm_step if is_thinned else 1)
         # the finest level that is asked for lasts longest of all
         first = is_half_plane or number == len(self.problem.pitches)
         urgency = FIRST if first else NEEDED
@@ -174,6 +181,12 @@ class _Levels:
 
     def checked(self, solved: Solved, why: str) -> Solved:
         """Add the far boundary at half the distance, longer increments, and why that is all."""
+        elements = solved.runs.get("finite_element")
+        if elements and len(elements.levels) < self.shown:  # than was to be expected
+            self.shown = finest = len(elements.levels)
+            in_full = self.tasks.result(self.add(self.models[elements.name], finest))
+            self.levels[elements.name][finest - 1] = in_full
+            solved = self.solved(finest, solved.runs)
         again: dict[str, list[Levels]] = {part: [] for part in self.checks}
         for part, model in ((part, model) for part, of in self.checks.items() for model in of):
             try:

@@ -45,7 +45,7 @@ def finite_element_level(
     stages: Stages,
     body_cache: BodyCache | None = None,
     approach: float | None = None,
-    fields: bool = True,
+    fields: int = 1,
 ) -> dict[float, Level]:
     """Solve one level at friction coefficients that share a contact: mesh, factorise, press, and
     where asked for compute the stresses.
@@ -54,7 +54,7 @@ def finite_element_level(
     elements. Where contact spreads beyond them they are widened and the level is solved again.
     body_cache  shared by levels whose meshes and factors may be the same
     approach    [m] from first touch, prescribed in place of the load
-    fields      give all stresses on the window and the mesh, not the largest alone
+    fields      as those of a `Model`
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails."""
     frictions, flows = problem.scene.load.friction, problem.scene.finite_element.plastic

@@ -253,12 +253,12 @@ def stresses_of(
     frictions: tuple[float, ...],
     window: Window,
     asperities: tuple[float, ...] = (),
-    fields: bool = True,
+    fields: int = 1,
 ) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
 
     asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
-    fields      whether these are wanted; else stresses are computed only where they may be the
+    fields      wanted on every so many-th x; 0: stresses are computed only where they may be the
                 largest
     """
     body, results = pressed.body, []
@@ -278,7 +278,7 @@ def stresses_of(
         wanted["von_mises"] = (lambda stress: stress.von_mises(stress.poissons_ratio),)
     shown = [None] * len(frictions)
     if fields:
-        shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
+        shown = evaluate_all(body, nodal, *np.meshgrid(window.every(fields).x, window.z))
     searches = [Search(stresses, *how) for stresses in nodal for how in wanted.values()]
     found = iter(maxima(body, searches, bounds))
     for friction, stresses, on_window in zip(frictions, nodal, shown, strict=True):

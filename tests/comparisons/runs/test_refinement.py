@@ -78,14 +78,15 @@ def test_no_clock_decides(monkeypatch):
 
 
 def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
-    """Finite elements that are half-planes, but for the finest one."""
-    made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}})
+    """Finite elements that are half-planes, but for the finest one. What is then the finest, whose
+    norm alone was wanted, has all of its fields."""
+    made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}, "stress": {"points": [90, 40]}})
 
-    def solve(finest, problem, refinement, stages, *rest, **others):
+    def solve(finest, problem, refinement, stages, *rest, fields):
         if refinement.pitch <= 1.01 * made.pitches[finest - 1]:
             raise FemError("it did not converge")
         grid = problem.grid(refinement.pitch)
-        return analytic_level(problem, frozenset(), grid, stages)
+        return analytic_level(problem, frozenset(), grid, stages, fields)
 
     def solved(finest):
         monkeypatch.setattr(level, "finite_element_level", partial(solve, finest))
@@ -94,6 +95,8 @@ def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
     runs = solved(3)
     assert {name: len(run.levels) for name, run in runs.runs.items()} == dict.fromkeys(MODELS, 2)
     assert runs.refinement.endswith("to a third of the tolerance: level 3: it did not converge")
+    columns = [level.stress.tau1.shape[1] for level in runs.runs["finite_element"].levels]
+    assert columns == [len(made.window.every(4).x), len(made.window.x)]
     with pytest.raises(FemError, match="did not converge"):
         solved(2)
 
