@@ -18,7 +18,6 @@ from comparisons import ROOT
 
 KILLED = "killed, as the system does where memory ends"
 PR_SET_PDEATHSIG = 1  # of Linux's prctl
-RARELY = 50_000  # objects that a worker makes before it looks for garbage; Python's 700 cost 4 %
 # Of processes that this one starts: one thread, and no code from the working folder.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "PYTHONSAFEPATH": "1"}
 _starting = Lock()  # of processes, since each changes this one's environment for a moment
@@ -88,7 +87,6 @@ def _work(serve: Callable[[Connection], None], pipe: Connection) -> None:
     with suppress(OSError):
         os.setpgid(0, 0)  # what this process starts ends with it
     gc.freeze()  # a collection would look through, and copy, all that a parent has in memory
-    gc.set_threshold(RARELY)
     serve(pipe)
 
 
