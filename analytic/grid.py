@@ -81,29 +81,21 @@ class HatGrid:
     ) -> np.ndarray:
         """Integrals of phi_i f dx (n,), exact for polynomials f of degree 6 between `knots`."""
         nodes = np.arange(self.first - 1, self.last + 2) * self.pitch
-        return hat_integrals(nodes, function, knots)
-
-
-def hat_integrals(
-    nodes: np.ndarray, function: Callable[[np.ndarray], np.ndarray], knots: np.ndarray | None = None
-) -> np.ndarray:
-    """Integrals of phi_i f dx (n,) over hats with nodes and outer feet (n + 2,) [m] of any spacing.
-    Exact for polynomials f of degree 6 between `knots`."""
-    breaks = nodes
-    if knots is not None:
-        inside = knots[(knots > nodes[0]) & (knots < nodes[-1])]
-        breaks = np.union1d(nodes, inside)
-    width, pitch = np.diff(breaks), np.diff(nodes)
-    middle = 0.5 * (breaks[1:] + breaks[:-1])
-    cell = np.clip(np.searchsorted(nodes, middle) - 1, 0, len(pitch) - 1)
-    total = np.zeros(len(nodes))
-    for point, weight in zip(GAUSS_POINTS, GAUSS_WEIGHTS, strict=True):
-        place = middle + 0.5 * point * width
-        value = 0.5 * weight * width * function(place)
-        share = (place - nodes[cell]) / pitch[cell]
-        total += np.bincount(cell, (1.0 - share) * value, minlength=len(nodes))
-        total += np.bincount(cell + 1, share * value, minlength=len(nodes))
-    return total[1:-1]
+        breaks = nodes
+        if knots is not None:
+            inside = knots[(knots > nodes[0]) & (knots < nodes[-1])]
+            breaks = np.union1d(nodes, inside)
+        width, pitch = np.diff(breaks), np.diff(nodes)
+        middle = 0.5 * (breaks[1:] + breaks[:-1])
+        cell = np.clip(np.searchsorted(nodes, middle) - 1, 0, len(pitch) - 1)
+        total = np.zeros(len(nodes))
+        for point, weight in zip(GAUSS_POINTS, GAUSS_WEIGHTS, strict=True):
+            place = middle + 0.5 * point * width
+            value = 0.5 * weight * width * function(place)
+            share = (place - nodes[cell]) / pitch[cell]
+            total += np.bincount(cell, (1.0 - share) * value, minlength=len(nodes))
+            total += np.bincount(cell + 1, share * value, minlength=len(nodes))
+        return total[1:-1]
 
 
 def roller_gap(

@@ -96,9 +96,8 @@ def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> En
     keep the stresses of their hats. The others have the ends, near those that their gaps tell, at
     which they have the hats' force and moment."""
     pitch = x_nodes[1] - x_nodes[0]
-    hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
-    nodal = nodal_values(hats, pressure)
-    touching, ends = contact_ends(hats, pressure, gap)
+    nodal = nodal_values(pressure)
+    touching, ends = contact_ends(x_nodes, pressure, gap)
     wide = np.ptp(touching, axis=1) + 1 >= FEWEST
     if not wide.any():
         return EndStress(x_nodes, pressure, ())

@@ -8,8 +8,7 @@ curved p by h^2 |p''| / 12 at the nodes, and towards an end e of contact no hats
 On each patch [b0, b1] the curve p = sqrt((x - b0) (b1 - x)) f(x) has both: b0, b1 from the gaps
 outside, f a cubic spline through the nodal values that the means give.
 
-    hats     (n + 2,) nodes [m], ascending, any spacing, with the feet of the outer two
-    p, g     nodal pressures (n,) [Pa], gaps (n,) [m]: means weighted with the hats"""
+    x, p, g  nodes [m], pressures [Pa] and gaps [m] (n,) of equal hats: means weighted with them"""
 
 from collections.abc import Callable
 
@@ -26,7 +25,7 @@ WITHIN, STEPS, HALVINGS = (-0.5, 1.5), 16, 40
 
 
 def contact_ends(
-    hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray
+    x: np.ndarray, pressure: np.ndarray, gap: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """First and last touching node (k, 2) of each patch, indices in p, and the ends of contact
     (k, 2) [m] beyond them.
@@ -38,55 +37,40 @@ def contact_ends(
     # all left ends, then all right ones
     node, room = np.concatenate([first, after - 1]), np.concatenate([open_before, open_beyond])
     side = np.repeat([-1, 1], len(first))
-    start = hats[node + 1]
-    width = np.abs(hats[node + 1 + side] - start)
     end, known = np.full(len(node), 0.5), room >= DISTURBED_OPEN + 3
-    place = (node + 1)[known, None] + side[known, None] * (DISTURBED_OPEN + np.arange(5))
-    local = (side / width)[known, None] * (hats[place] - start[known, None])
-    end[known] = _ends(local, gap[place[:, 1:-1] - 1])
-    ends = start + side * width * end
+    beyond = DISTURBED_OPEN + 1 + np.arange(3)
+    end[known] = _ends(gap[node[known, None] + side[known, None] * beyond])
+    ends = x[node] + side * (x[1] - x[0]) * end
     return np.column_stack([first, after - 1]), ends.reshape(2, -1).T
 
 
-def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+def nodal_values(pressure: np.ndarray) -> np.ndarray:
     """Values (n,) [Pa] at the nodes of the parabola that has the mean of p_h over each hat. Its
-    slope and curvature are those of the parabola through the node and its neighbours."""
-    before, after = np.diff(hats)[:-1], np.diff(hats)[1:]
-    whole = np.concatenate([[0.0], pressure, [0.0]])
-    width = before + after
-    mean = (before * (whole[:-2] + 2.0 * pressure) + after * (whole[2:] + 2.0 * pressure)) / (
-        3.0 * width
-    )
-    rise, fall = (pressure - whole[:-2]) / before, (whole[2:] - pressure) / after
-    bend = 2.0 * (fall - rise) / width
-    slope = (before * fall + after * rise) / width
-    first, second = (after - before) / 3.0, (before**3 + after**3) / (6.0 * width)
-    return mean - slope * first - 0.5 * bend * second
+    curvature is that of the parabola through the node and its neighbours."""
+    return pressure + np.diff(np.pad(pressure, 1), 2) / 12.0
 
 
-def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Ends (k,) by the gaps (k, 3) of open nodes, at x (k, 5) with those beside; else 1/2."""
-    step = np.diff(local)
-    weighted = gap * (step[:, :-1] + step[:, 1:])
+def _ends(gap: np.ndarray) -> np.ndarray:
+    """Ends (k,) [pitches] by the gaps (k, 3) of open nodes; else 1/2."""
+    nodes = DISTURBED_OPEN + np.arange(5.0)  # with those beside
+    before, after = [2, 0, 1], [1, 2, 0]
 
-    def mismatch(end: np.ndarray) -> np.ndarray:
-        """(k, m) at ends (k, m): the determinant of both powers and the gaps on the three hats."""
-        over = np.maximum(local[:, None] - end[..., None], 0.0)
+    def minors(end: np.ndarray) -> np.ndarray:
+        """(…, 3) at ends (…): of both powers on the three hats, which times the gaps vanish."""
+        over = np.maximum(nodes - end[..., None], 0.0)
         once = over**3 * np.sqrt(over)  # the power 3/2 integrated twice, but for its factor
-        one, two = (np.diff(np.diff(values) / step[:, None]) for values in (once, once * over))
-        before, after = [2, 0, 1], [1, 2, 0]
-        cross = one[..., after] * two[..., before] - one[..., before] * two[..., after]
-        return (cross * weighted[:, None]).sum(axis=-1)
+        one, two = np.diff(once, 2), np.diff(once * over, 2)
+        return one[..., after] * two[..., before] - one[..., before] * two[..., after]
 
     sampled = np.linspace(*WITHIN, STEPS + 1)
-    value = mismatch(np.broadcast_to(sampled, (len(local), len(sampled))))
+    value = gap @ minors(sampled).T
     change = value[:, :-1] * value[:, 1:] < 0.0
-    row = np.arange(len(local))
+    row = np.arange(len(gap))
     best = np.argmin(np.where(change, np.abs(sampled[:-1] - 0.5), np.inf), axis=1)
-    low, high, before = sampled[best], sampled[best + 1], value[row, best]
+    low, high, start = sampled[best], sampled[best + 1], value[row, best]
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        beyond = mismatch(middle[:, None])[:, 0] * before > 0.0
+        beyond = (minors(middle) * gap).sum(axis=1) * start > 0.0
         low, high = np.where(beyond, middle, low), np.where(beyond, high, middle)
     return np.where(change.any(axis=1), 0.5 * (low + high), 0.5)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad, trapezoid
 from scipy.interpolate import CubicSpline
 
-from analytic.grid import HatGrid, hat_integrals, roller_gap
+from analytic.grid import HatGrid, roller_gap
 
 
 def test_grids_of_halved_pitch_nest():
@@ -68,30 +68,24 @@ def test_gap_of_a_rough_surface_is_the_parabola_less_the_heights():
     assert roller_gap(2.0, np.sin)(x) == pytest.approx(x**2 / 4.0 - np.sin(x))
 
 
-def test_averages_over_unequal_hats_are_exact_for_polynomials():
-    hats = np.array([-1.0, -0.4, -0.1, 0.7, 2.0])
-    power = np.arange(7)
-    exact = np.zeros((3, 7))
-    for i in range(3):
-        a, b, c = hats[i : i + 3]
+def test_averages_are_exact_for_polynomials():
+    grid, power = HatGrid(0.3, -2, 1), np.arange(7)
+    exact = np.zeros((4, 7))
+    for i, node in enumerate(grid.x):
         # The hat's second derivative is three deltas: integrate x^k twice.
-        whole = [t ** (power + 2.0) / ((power + 1.0) * (power + 2.0)) for t in (a, b, c)]
-        exact[i] = (whole[0] - whole[1]) / (b - a) + (whole[2] - whole[1]) / (c - b)
-    means = np.stack([hat_integrals(hats, lambda x, k=k: x**k) for k in power], axis=1)
+        a, b, c = (
+            t ** (power + 2.0) / ((power + 1.0) * (power + 2.0))
+            for t in (node - 0.3, node, node + 0.3)
+        )
+        exact[i] = (a - 2.0 * b + c) / 0.3
+    means = np.stack([grid.hat_integrals(lambda x, k=k: x**k) for k in power], axis=1)
     assert means == pytest.approx(exact, rel=1e-12, abs=1e-14)
-    assert means[:, 0] == pytest.approx(0.5 * (hats[2:] - hats[:-2]), rel=1e-14)
+    assert means[:, 0] == pytest.approx(grid.weights, rel=1e-14)
 
 
 def test_averages_with_a_knot_follow_a_kink():
-    hats = np.array([0.0, 1.0, 3.0])
     kink = 1.6
-    means = hat_integrals(hats, lambda x: np.abs(x - kink), np.array([kink]))
+    [mean] = HatGrid(1.5, 1, 1).hat_integrals(lambda x: np.abs(x - kink), np.array([kink]))
     x = np.linspace(0.0, 3.0, 300001)
-    direct = trapezoid(np.interp(x, hats, [0, 1, 0]) * np.abs(x - kink), x)
-    assert means == pytest.approx(direct, rel=1e-8)
-
-
-def test_a_grid_of_hats_has_the_same_averages():
-    grid = HatGrid(0.1, -5, 9)
-    nodes = 0.1 * np.arange(-6, 11)
-    assert grid.hat_integrals(np.exp) == pytest.approx(hat_integrals(nodes, np.exp), rel=1e-13)
+    direct = trapezoid(np.interp(x, [0.0, 1.5, 3.0], [0, 1, 0]) * np.abs(x - kink), x)
+    assert mean == pytest.approx(direct, rel=1e-8)
