@@ -1,1 +1,1 @@
-"""Heat conduction in half-spaces, and the flash temperature of sliding contacts."""
+"""Heat conduction in half-spaces and slabs, and the flash temperature of sliding contacts."""
