@@ -127,16 +127,7 @@ def norms_of(model: Solution, problem: Problem, against: Solution) -> Iterable[F
 
 def values_of(level: Level, problem: Problem) -> dict[str, float]:
     """The compared quantities that one model has by itself, SI."""
-    values = {
-        "peak_pressure": float(level.solution.pressure.max()),
-        "contact_length": level.contact_length,
-    }
-    if (stress := level.stress) is not None:
-        tau1 = stress.extremes["tau1"]
-        values["tau1_max"] = tau1.value
-        values["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
-        values["txz_max_abs"] = abs(stress.extremes["txz"].value)
-    return values
+    return quantities_of(level, problem).largest()
 
 
 @dataclass(frozen=True)
@@ -170,11 +161,9 @@ class QuantitiesOfInterest:
 def quantities_of(level: Level, problem: Problem) -> QuantitiesOfInterest:
     """Quantities of a solved level; `problem` is the one that it solves."""
     x = level.grid.x if level.material is None else level.material
-    cell, pressure = np.searchsorted(problem.asperities, x), level.solution.pressure
-    peaks = [
-        mine[np.argmax(pressure[mine])] if len(mine := np.flatnonzero(cell == k)) else -1
-        for k in range(len(problem.asperities) + 1)
-    ]
+    pressure, peaks = level.solution.pressure, np.full(len(problem.asperities) + 1, -1)
+    rising = np.argsort(-pressure, kind="stable")[::-1]
+    peaks[np.searchsorted(problem.asperities, x[rising])] = rising  # the last of each stays
     figures = {"peak_pressure": pressure[peaks], "contact_length": np.array([level.contact_length])}
     places = {"peak_pressure": x[peaks]}
     if (stress := level.stress) is not None:

@@ -11,7 +11,7 @@ from math import inf
 from comparisons.common.numbers import significant, with_unit
 from comparisons.common.tasks import LAST, Tasks
 from comparisons.judging.effects.estimates import Sizes
-from comparisons.judging.rule import quantities_of, relative_differences
+from comparisons.judging.rule import relative_differences, values_of
 from comparisons.judging.study import Solved
 from comparisons.models.model import scene_model
 from comparisons.models.problem import Problem
@@ -40,8 +40,8 @@ def sampling_changes(solved: Solved, tasks: Tasks) -> Sizes:
         others = tasks.result(key)
         for case in solved.cases:
             level, problem = case.runs["half_plane"].levels[:SAMPLED][-1], case.problem
-            whole = quantities_of(level, problem).largest()
-            half = quantities_of(others[case.friction], _thinned(problem, first)).largest()
+            whole = values_of(level, problem)
+            half = values_of(others[case.friction], _thinned(problem, first))
             for name, size in relative_differences(half, whole, problem).items():
                 sizes[name] = max(sizes.get(name, 0.0), abs(size))
     return sizes

@@ -45,13 +45,13 @@ from comparisons.judging.effects.selection import (
     is_negligible,
     selected_effects,
 )
-from comparisons.judging.model_error.contributions import NotComputedError, split_variants
-from comparisons.judging.model_error.model_error import INTERACTION, JUMP
+from comparisons.judging.model_error.model_error import INTERACTION, JUMP, split_variants
 from comparisons.judging.model_error.refinement import (
     GROWTH_OF_TIME,
     LEAST_LEVELS,
     EffectRefinement,
     ErrorBudget,
+    NotComputedError,
 )
 from comparisons.judging.study import MODEL_ERROR, Solved
 

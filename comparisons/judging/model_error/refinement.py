@@ -20,8 +20,7 @@ from comparisons.judging.effects.catalogue import (
     model_with,
 )
 from comparisons.judging.effects.selection import ASKED, EffectSelection
-from comparisons.judging.model_error.contributions import NotComputedError, split_variants
-from comparisons.judging.model_error.model_error import Solutions, figure_of
+from comparisons.judging.model_error.model_error import Solutions, figure_of, split_variants
 from comparisons.judging.rule import QuantitiesOfInterest, quantities_of
 from comparisons.judging.study import Case, Solved
 from comparisons.models.level import Level
@@ -36,6 +35,10 @@ GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 # What a task raises where a variant has no solution.
 NO_SOLUTION = ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError
+
+
+class NotComputedError(Exception):
+    """A model variant has no solution; the message says why."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ where nothing is judged."""
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -93,8 +93,7 @@ def error_table(run: Run, brief: bool = False) -> TextTable:
     def size(error: Figure) -> tuple[str, str]:
         if leaves_flow_out(run, error):
             return UNKNOWN, UNKNOWN
-        value = law_range(error) or error_text(error.value, error.numerical)
-        return value, percent(error.numerical)
+        return sized_by_law(error), percent(error.numerical)
 
     def most(error: Figure) -> str:
         largest = "".join(contributions(run, error)[:1]).replace(" %", "")
@@ -137,18 +136,22 @@ def _not_known(run: Run, error: Figure) -> str:
     """Words where effects that no model has may exceed the tolerance; else nothing."""
     if leaves_flow_out(run, error):
         return f"{EFFECTS[FLOW].label} not modelled"
-    others = math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
+    others = beside_its_range(error)
     if error.bounds is None or others <= error.tolerance:
         return ""
     return f"{percent(others)} not modelled" if math.isfinite(others) else "not known"
 
 
-def law_range(error: Figure) -> str:
-    """Range of the error by the law of elasticity, where the scene names no solid; empty
-    where it does."""
+def beside_its_range(error: Figure) -> float:
+    """What no model has of the error, without what its own range by the law of elasticity shows."""
+    return math.hypot(*(size for name, size in error.unknown.items() if not error.part(name)))
+
+
+def sized_by_law(error: Figure) -> str:
+    """The error in per cent; where the scene names no solid its range by the law of elasticity."""
     part = error.part(LAW)
     if part is None or not part.uncertainty:
-        return ""
+        return error_text(error.value, error.numerical)
     ends = (error.value - part.uncertainty, error.value + part.uncertainty)
     low, high = (error_text(end, error.numerical).removesuffix(" %") for end in ends)
     return f"{low} to {high} %"
@@ -175,21 +178,22 @@ def _moved(error: Figure) -> str:
     return f"at x = {after}, of the half-plane at {before}"
 
 
-def contributions_of(error: Figure) -> dict[str, float]:
-    """Parts of a model error, with their signs: an effect that raises the finite elements'
-    figure makes the half-plane's too low."""
+def steps_of(error: Figure) -> dict[str, float]:
+    """Steps that add up to a model error: what is numerical, and its parts, with their signs: an
+    effect that raises the finite elements' figure makes the half-plane's too low."""
     sizes = {}
     for part in error.parts:
         name = EFFECTS[part.name].label if part.name in EFFECTS else WORDS[part.name]
         sizes[name] = part.value if part.name == JUMP else -part.value
-    return sizes
+    return {NUMERICAL: error.value - sum(sizes.values()), **sizes}
 
 
 def contributions(run: Run, error: Figure) -> tuple[str, ...]:
     """Parts of a model error in words, the largest first; nothing where the error says nothing."""
     if leaves_flow_out(run, error):
         return ()
-    large = sorted(_large(contributions_of(error), error), key=lambda item: -abs(item[1]))
+    parts = (step for step in _large(error) if step[0] != NUMERICAL)
+    large = sorted(parts, key=lambda item: -abs(item[1]))
     return tuple(f"{name} {error_text(size)}" for name, size in large)
 
 
@@ -229,19 +233,10 @@ def _largest(run: Run, estimate: dict[str, float]) -> float:
     return max(estimate[name] for name in judged or estimate)
 
 
-@dataclass(frozen=True)
-class Waterfall:
-    """The steps to the error of a quantity at one or more friction coefficients."""
-
-    name: str
-    # relative sizes by name, with the sign of the error, to which they add up
-    steps: dict[str, float]
-    error: Figure
-
-
-def waterfalls(run: Run) -> list[Waterfall]:
-    """Panels for what is judged, or everything; coefficients of equal figures together."""
-    panels, errors = [], run.figures.of(study=MODEL_ERROR, against=WHOLE)
+def waterfalls(run: Run) -> dict[str, Figure]:
+    """Errors by title, of what is judged, or everything; one for all friction coefficients of equal
+    figures."""
+    panels, errors = {}, run.figures.of(study=MODEL_ERROR, against=WHOLE)
     names = {error.quantity for error in run.model_errors or errors}
     shown = [e for name in QUANTITIES if name in names for e in errors.of(quantity=name)]
 
@@ -254,9 +249,7 @@ def waterfalls(run: Run) -> list[Waterfall]:
         frictions = tuple(figure.friction for figure in (error, *same))
         is_every = frictions == tuple(run.problem.scene.load.friction)
         at = "" if is_every else f", μ = {listed(frictions)}"
-        steps = contributions_of(error)
-        steps = {NUMERICAL: error.value - sum(steps.values()), **steps}
-        panels.append(Waterfall(label(error.quantity) + at, steps, error))
+        panels[label(error.quantity) + at] = error
     return panels
 
 
@@ -265,12 +258,12 @@ def model_error_picture(run: Run) -> style.Picture | None:
     panels = waterfalls(run)
     if not panels:
         return None
-    judged = [panel for panel in panels if panel.error.tolerance]
     said = "; ".join(
-        f"{panel.name}: {error_text(panel.error.value, panel.error.numerical)}"
-        + "".join(f", {name} {error_text(size)}" for name, size in _large(panel.steps, panel.error))
-        for panel in panels
+        f"{title}: {error_text(error.value, error.numerical)}"
+        + "".join(f", {name} {error_text(size)}" for name, size in _large(error))
+        for title, error in panels.items()
     )
+    judged = any(error.tolerance for error in panels.values())
     lines = "; broken lines: the tolerance" if judged else ""
     return style.picture(
         _drawn(panels),
@@ -285,34 +278,34 @@ def model_error_picture(run: Run) -> style.Picture | None:
     )
 
 
-def _table(panels: list[Waterfall]) -> list[list[object]]:
+def _table(panels: dict[str, Figure]) -> list[list[object]]:
     """Every step of every panel, relative; then the error with what may be wrong with it."""
     rows: list[list[object]] = [["quantity", "step", "relative size"]]
-    for panel in panels:
+    for title, error in panels.items():
         ends = {
-            ERROR: panel.error.value,
-            "uncertainty": panel.error.numerical,
-            "not modelled (estimate)": panel.error.not_modelled,
-            "tolerance": panel.error.tolerance,
+            ERROR: error.value,
+            "uncertainty": error.numerical,
+            "not modelled (estimate)": error.not_modelled,
+            "tolerance": error.tolerance,
         }
-        sizes = (panel.steps | ends).items()
-        rows += [[panel.name, step, f"{size:.6g}"] for step, size in sizes if size is not None]
+        sizes = (steps_of(error) | ends).items()
+        rows += [[title, step, f"{size:.6g}"] for step, size in sizes if size is not None]
     return rows
 
 
-def _large(steps: dict[str, float], error: Figure) -> list[tuple[str, float]]:
+def _large(error: Figure) -> list[tuple[str, float]]:
     """The steps to an error that are worth a row."""
     least = max(SHOWN, 0.1 * abs(error.value))
-    return [(name, size) for name, size in steps.items() if abs(size) >= least]
+    return [(name, size) for name, size in steps_of(error).items() if abs(size) >= least]
 
 
-def _drawn(panels: list[Waterfall]) -> "Drawn":
+def _drawn(panels: dict[str, Figure]) -> "Drawn":
     """All panels with the same rows, as many side by side as there is room for."""
     abreast = min(int((style.WIDE - NAMES) / WIDTH), len(panels))
-    worth = {name for panel in panels for name, _ in _large(panel.steps, panel.error)}
+    worth = {name for error in panels.values() for name, _ in _large(error)}
     names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), *WORDS.values()]
     rows = [name for name in names if name in worth]
-    every = [step for panel in panels for step in panel.steps.items()]
+    every = [step for error in panels.values() for step in steps_of(error).items()]
     if any(abs(size) > NOTHING for name, size in every if name not in worth):
         rows.append(OTHERS)
     rows.append(ERROR)
@@ -322,16 +315,18 @@ def _drawn(panels: list[Waterfall]) -> "Drawn":
     tall = [(TITLE + (FOOT if k else TOP), ROW * len(rows)) for k in range(stacks)]
     room = NAMES, RIGHT, FOOT, abreast, BETWEEN, len(panels)
     drawn, places = curves.panels(width, tall, *room)
-    for number, (axes, panel) in enumerate(zip(places, panels, strict=True)):
-        _draw(axes, panel, rows, across)
+    for number, (axes, (title, error)) in enumerate(zip(places, panels.items(), strict=True)):
+        _draw(axes, error, rows)
+        axes.set_title("\n".join(wrap(title, int(TITLE_LETTERS * across))))
         if number % abreast:
             axes.tick_params(labelleft=False)
     return drawn
 
 
-def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> None:
-    shown = {name: panel.steps.get(name, 0.0) for name in rows[:-1]}
-    left_out = [size for name, size in panel.steps.items() if name not in shown]
+def _draw(axes: "Axes", error: Figure, rows: list[str]) -> None:
+    steps = steps_of(error)
+    shown = {name: steps.get(name, 0.0) for name in rows[:-1]}
+    left_out = [size for name, size in steps.items() if name not in shown]
     if OTHERS in shown:
         shown[OTHERS] = sum(left_out)
     place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
@@ -340,24 +335,24 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
         if abs(size) > NOTHING:
             look = {"height": BAR, "linewidth": 0.5, **LOOKS[size > 0.0]}
             axes.barh(y, start - begin, left=begin, **look)
-            style.beside_bar(axes, max(begin, start), y, error_text(size, panel.error.numerical))
+            style.beside_bar(axes, max(begin, start), y, error_text(size, error.numerical))
         # past a step that does not apply
         top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
         axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
-    value, y = 100.0 * panel.error.value, place[-1]
+    value, y = 100.0 * error.value, place[-1]
     axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
-    certain = 100.0 * panel.error.numerical if math.isfinite(panel.error.numerical) else 0.0
-    at = 100.0 * (panel.error.tolerance or 0.0)
+    certain = 100.0 * error.numerical if math.isfinite(error.numerical) else 0.0
+    at = 100.0 * (error.tolerance or 0.0)
     most = max(*map(abs, ends), abs(value) + certain, at)
-    estimate = min(100.0 * panel.error.not_modelled, most)  # more would hide the steps
+    estimate = min(100.0 * error.not_modelled, most)  # more would hide the steps
     bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
     for reach, thick, caps in bars:
         style.whisker(axes, value, y, (reach, reach), thick, caps)
         ends += [value - reach, value + reach]
-    text = error_text(panel.error.value, panel.error.numerical)
+    text = error_text(error.value, error.numerical)
     style.beside_bar(axes, max(ends[-1], value, 0.0), y, text)
-    for side in (-1.0, 1.0) if panel.error.tolerance else ():
+    for side in (-1.0, 1.0) if error.tolerance else ():
         axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
         ends.append(side * at)
     axes.axvline(0.0, color="#555555", linewidth=0.7)
@@ -368,5 +363,4 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     axes.tick_params(axis="y", length=0.0)
     axes.grid(False, axis="y")
     axes.locator_params(axis="x", nbins=6)
-    axes.set_title("\n".join(wrap(panel.name, int(TITLE_LETTERS * across))))
     axes.set_xlabel("model error [%]")

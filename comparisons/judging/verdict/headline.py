@@ -10,7 +10,7 @@ them unknown is said instead."""
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot, inf, isfinite
+from math import inf, isfinite
 from typing import Literal
 
 from comparisons.common.numbers import (
@@ -22,11 +22,16 @@ from comparisons.common.numbers import (
     with_unit,
 )
 from comparisons.figures.figure import Figure, deciding
-from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES, error_text
+from comparisons.figures.quantity import HYPHENATED, LABELS, QUANTITIES
 from comparisons.judging import contact, yielding
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, SAMPLING
 from comparisons.judging.model_error.model_error import INTERACTION
-from comparisons.judging.model_error.show import flow_taken, law_range, leaves_flow_out
+from comparisons.judging.model_error.show import (
+    beside_its_range,
+    flow_taken,
+    leaves_flow_out,
+    sized_by_law,
+)
 from comparisons.judging.study import CONVERGED, MODEL_ERROR, Run
 from comparisons.judging.verdict.next_step import next_of, pasted
 from comparisons.models.assumptions import WITHIN_LINEAR, laws, question, without_law
@@ -88,9 +93,8 @@ def size_of(run: Run, error: Figure) -> str:
     one that leaves flow out, what that may change alone."""
     if leaves_flow_out(run, error):
         return f"{percent(error.unknown[FLOW])} by {EFFECTS[FLOW].label}, which is not modelled"
-    size = law_range(error) or error_text(error.value, error.numerical)
-    size = f"{size.removesuffix(' %')} ± {percent(error.numerical)}"
-    others = hypot(*(of for name, of in error.unknown.items() if not error.part(name)))
+    size = f"{sized_by_law(error).removesuffix(' %')} ± {percent(error.numerical)}"
+    others = beside_its_range(error)
     if others <= SMALL * error.reach:
         return size
     sampled = error.unknown.get(SAMPLING, 0.0) > 0.5 * others

@@ -219,12 +219,13 @@ def _stresses(
     shears = {"tau1": stress.tau1, "txz": np.abs(stress.txz), "von_mises": stress.von_mises(nu)}
     nodes = {n: int(np.argmax(np.where(inside, v, -np.inf))) for n, v in shears.items()}
     depths = body.z - np.interp(body.x, *top)
-    extremes = {
-        name: Extremum(float(shears[name][node]), float(body.x[node]), float(depths[node]))
+    maxima = {
+        name: np.array([shears[name][node], body.x[node], depths[node]])[:, None]
         for name, node in nodes.items()
     }
+    extremes = {name: Extremum.highest(largest) for name, largest in maxima.items()}
     beside = body.z[body.triangles[np.any(body.triangles == nodes["tau1"], axis=1)]]
-    stress = StressResult(friction, extremes, {}, _on_window(body, window))
+    stress = StressResult(friction, extremes, maxima, _on_window(body, window))
     return {"stress": stress, "depth_spacing": 0.5 * float(np.ptp(beside))}
 
 

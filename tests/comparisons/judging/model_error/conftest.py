@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scenes import STEEL_PAIR, changed, problem
 
-from comparisons.judging.model_error.contributions import NotComputedError
+from comparisons.judging.model_error.refinement import NotComputedError
 from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.models.model import Model
 from comparisons.models.problem import Problem

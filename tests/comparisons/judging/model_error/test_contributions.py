@@ -11,8 +11,8 @@ import pytest
 
 from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import NotComputedError, split_variants
-from comparisons.judging.model_error.model_error import Solutions
+from comparisons.judging.model_error.model_error import Solutions, split_variants
+from comparisons.judging.model_error.refinement import NotComputedError
 from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.judging.study import Case
 

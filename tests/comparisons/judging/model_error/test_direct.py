@@ -19,7 +19,7 @@ from scenes import (
 
 from comparisons.figures.figure import Figure
 from comparisons.judging.effects.catalogue import contained
-from comparisons.judging.model_error.contributions import split_variants
+from comparisons.judging.model_error.model_error import split_variants
 from comparisons.judging.rule import values_of
 from comparisons.models.problem import Levels
 

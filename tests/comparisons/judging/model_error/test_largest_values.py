@@ -12,8 +12,7 @@ import pytest
 
 from comparisons.figures.figure import Figure
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.model_error.contributions import SplitVariants
-from comparisons.judging.model_error.model_error import Solutions
+from comparisons.judging.model_error.model_error import Solutions, SplitVariants
 from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.judging.study import Case
 

@@ -12,8 +12,7 @@ from comparisons.common.tasks import Tasks, tasks_here
 from comparisons.figures.quantity import MODELS
 from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
-from comparisons.judging.model_error.contributions import NotComputedError
-from comparisons.judging.model_error.refinement import EffectRefinement
+from comparisons.judging.model_error.refinement import EffectRefinement, NotComputedError
 from comparisons.judging.study import unsolved
 from comparisons.models.model import Model
 from comparisons.models.plan import make_plan

@@ -10,7 +10,7 @@ import pytest
 from scenes import STEADY, WAVY_LAYER, changed, with_fields
 
 from comparisons.figures.quantity import QUANTITIES, label
-from comparisons.judging.model_error.show import waterfalls
+from comparisons.judging.model_error.show import steps_of, waterfalls
 from comparisons.judging.study import Run
 from comparisons.output.page.page import render
 
@@ -69,13 +69,13 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
     [steps] = [table for name, table in named if name.startswith("the-half-plane-s-model-error")]
     panels = waterfalls(wavy_outcome)
     assert steps[0] == ["quantity", "step", "relative size"]
-    assert {row[0] for row in steps[1:]} == {panel.name for panel in panels}
-    for panel in panels:
-        sizes = {step: float(size) for name, step, size in steps[1:] if name == panel.name}
-        assert sizes["model error"] == pytest.approx(panel.error.value, rel=1e-5)
-        assert sizes["uncertainty"] == pytest.approx(panel.error.numerical, rel=1e-5)
-        steps_up = sum(sizes[step] for step in panel.steps)
-        assert steps_up == pytest.approx(panel.error.value, rel=1e-4, abs=1e-6)
+    assert {row[0] for row in steps[1:]} == set(panels)
+    for title, error in panels.items():
+        sizes = {step: float(size) for name, step, size in steps[1:] if name == title}
+        assert sizes["model error"] == pytest.approx(error.value, rel=1e-5)
+        assert sizes["uncertainty"] == pytest.approx(error.numerical, rel=1e-5)
+        steps_up = sum(sizes[step] for step in steps_of(error))
+        assert steps_up == pytest.approx(error.value, rel=1e-4, abs=1e-6)
 
 
 def test_no_script_runs(wavy_page):
