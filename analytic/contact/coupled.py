@@ -27,13 +27,7 @@ from analytic.contact.active_set import ActiveSet
 from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
 from analytic.contact.exchange import exchange, exchange_blocks
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
-from analytic.contact.problem import (
-    ContactSolution,
-    assessed,
-    check_load,
-    common_gap,
-    solve_contact,
-)
+from analytic.contact.problem import ContactSolution, posed, solution_of, solve_contact
 from analytic.operators.half_plane import ModelOperator
 
 TIGHT = 1e-10  # error of accurate pressures, in the 2-norm
@@ -144,32 +138,22 @@ def solve_coupled(
     KKT_TOLERANCE is returned with `converged` False."""
     if not operator.skew:
         return solve_contact(operator, weighted_gap, weights, constraints, start)
-    check_load(constraints, weights)
-    spent = {"exchanges": 0, "applications": 0, "contractions": 0}
-    common, constraints = common_gap(weighted_gap, weights, constraints)
-    weighted_gap = weighted_gap - common * weights
-    problem = CoupledEquilibrium(operator, weighted_gap, weights, constraints, spent)
+    problem, common = posed(CoupledEquilibrium, operator, weighted_gap, weights, constraints)
+    problem.spent["contractions"] = 0
     settled = False
     if start is not None:
         pressure, _, settled = exchange_blocks(problem, start)
     if not settled:
         start = coarse_start(problem, partial(exchange, settled=EDGES_OFF), COARSEST)
         pressure, _, settled = exchange_blocks(problem, start)
-    solution = _solution(problem, pressure)
+    solution = solution_of(problem, pressure, common)
     if not (settled or solution.converged):
-        solution = _contract(problem, solution.pressure)
-    return replace(solution, approach=solution.approach + common)
+        solution = solution_of(problem, _contract(problem, solution.pressure), common)
+    return solution
 
 
-def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
-    limits = problem.constraints
-    pressure = np.clip(pressure, 0.0, limits.hardness)
-    moved, gap_and_weights = problem.apply(pressure), (problem.weighted_gap, problem.weights)
-    return assessed(moved, pressure, *gap_and_weights, problem.approach, limits, problem.spent)
-
-
-def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
-    """The contraction at the head of the module, from any pressures to convergence."""
+def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> np.ndarray:
+    """Pressures (n,) [Pa] by the contraction at the head of the module, from any."""
     operator, weights, constraints = problem.operator, problem.weights, problem.constraints
     normal = operator.normal
     share, before = 1.0, np.inf
@@ -191,4 +175,4 @@ def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
         weighted_displacement = problem.apply(pressure)
         if length <= SHORTEST**2 * (pressure @ even):
             break
-    return _solution(problem, pressure)
+    return pressure

@@ -27,7 +27,7 @@ def coarse_start(
     settle    pressures of a coarse problem, whose edges may be off, from a start
     coarsest  nodes below which no coarser grid is made"""
     count, periodic = len(problem.weighted_gap), problem.operator.periodic
-    operator = problem.operator.coarsened() if count >= coarsest else None
+    operator = problem.operator.coarser if count >= coarsest else None
     if operator is None:
         return foundation_start(problem)
     coarse = type(problem)(

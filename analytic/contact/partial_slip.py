@@ -35,9 +35,8 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
-from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.tangential import hat_sign
+from analytic.operators.tangential import TangentialHalfPlane
 
 Vectors = Callable[[np.ndarray], np.ndarray]
 # Of weighted gap, weights, constraints and a start
@@ -182,9 +181,10 @@ def half_planes(
     solve = partial(solve_contact, operator)
     raised = dragged = None
     if dundurs_beta:
-        odd = dundurs_beta * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
-        raised = Convolution(odd, None, row=-odd).apply
-        dragged = Convolution(-odd, None, row=odd).apply
+        raised, dragged = (
+            TangentialHalfPlane(grid.count, grid.pitch, sign * dundurs_beta / modulus).apply
+            for sign in (1.0, -1.0)
+        )
     return SurfacePair(
         weighted_gap=weighted_gap,
         weights=grid.weights,

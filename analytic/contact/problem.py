@@ -120,27 +120,41 @@ def solve_contact(
 
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
     KKT_TOLERANCE is returned with `converged` False."""
-    check_load(constraints, weights)
-    spent = {"exchanges": 0, "applications": 0}
-    common, constraints = common_gap(weighted_gap, weights, constraints)
-    weighted_gap = weighted_gap - common * weights
-    problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent)
+    problem, common = posed(EquilibriumProblem, operator, weighted_gap, weights, constraints)
     if start is None:
         start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
-    pressure = np.clip(exchange(problem, start), 0.0, constraints.hardness)
-    moved, approach = problem.apply(pressure), problem.approach
-    solution = assessed(moved, pressure, weighted_gap, weights, approach, constraints, spent)
-    return replace(solution, approach=solution.approach + common)
+    return solution_of(problem, exchange(problem, start), common)
 
 
-def check_load(constraints: Constraints, weights: np.ndarray) -> None:
-    """Raise ContactError if a prescribed load exceeds what the hardness can carry."""
+def posed(
+    kind: type[EquilibriumProblem],
+    operator: ModelOperator,
+    weighted_gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+) -> tuple[EquilibriumProblem, float]:
+    """The problem without its `common_gap`, and that [m]. Raises ContactError if a prescribed load
+    exceeds what the hardness can carry."""
     most = constraints.carried(np.ones(len(weights), dtype=bool), weights)
     if constraints.load is not None and constraints.load >= most:
         raise ContactError(
             f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
             f"hardness: {most:g} N/m"
         )
+    common, constraints = common_gap(weighted_gap, weights, constraints)
+    spent = {"exchanges": 0, "applications": 0}
+    return kind(operator, weighted_gap - common * weights, weights, constraints, spent), common
+
+
+def solution_of(
+    problem: EquilibriumProblem, pressure: np.ndarray, common: float
+) -> ContactSolution:
+    """Pressures (n,) [Pa], within the box, as a solution of a `posed` problem."""
+    limits = problem.constraints
+    pressure = np.clip(pressure, 0.0, limits.hardness)
+    moved, gap_and_weights = problem.apply(pressure), (problem.weighted_gap, problem.weights)
+    solution = assessed(moved, pressure, *gap_and_weights, problem.approach, limits, problem.spent)
+    return replace(solution, approach=solution.approach + common)
 
 
 def common_gap(

@@ -44,6 +44,8 @@ from analytic.layers.kernel import finest_scale, wave_panels
 from analytic.layers.layered import LayeredBody, added, added_stress
 from analytic.material import Material, combined_modulus
 from analytic.numerics import points_below
+from analytic.stress.elements import FrictionStress
+from analytic.stress.potential import stresses
 from analytic.stress_state import Extremum, StressState
 
 SMOOTHNESS = 6  # continuous derivatives of the initial gap
@@ -118,9 +120,7 @@ class PressurePatch:
             value = value + c * v ** (n + 1)
             slope = slope - c * (n + 1) * v ** (n + 1)
         slope = depth * slope / np.where(root == 0.0, 1.0, root)
-        normal = StressState(value.imag + slope.real, value.imag - slope.real, -slope.imag)
-        along = StressState(slope.imag - 2.0 * value.real, -slope.imag, value.imag + slope.real)
-        return normal.plus(friction, along)
+        return FrictionStress.of(stresses(value, slope)).at(friction)
 
     def transform(self, k: np.ndarray) -> np.ndarray:
         """int p(x) e^-ikx dx [N/m] of wavenumbers k [1/m] > 0."""

@@ -13,10 +13,10 @@ from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import k0e
 
 from analytic.material import ThermalMaterial
+from analytic.operators.convolution import Convolution
 
 # Quadrature of the kernel over a cell: away from its logarithm by few Gauss points, more for the
 # next cells; in the two cells that meet there after x = t^POWER, which leaves nothing singular.
@@ -44,35 +44,28 @@ class HeatedSurface:
         """V h / (2 kappa) of the pitch h, positive for a source that moves towards +x."""
         return -self.velocity * self.pitch / (2.0 * self.material.diffusivity)
 
-    def kernel(self, depth: float = 0.0) -> np.ndarray:
-        """T [K] at `depth` [m] per flux [W/m^2] of a hat, (2 count - 1,): from the point that lies
-        count - 1 pitches behind the hat (towards -x) to as far before it."""
+    def at(self, depth: float) -> Convolution:
+        """T [K] at `depth` [m] below the nodes by the fluxes [W/m^2] of hats, as an operator."""
         whole, first = _cell_integrals(
             self.count, self.peclet, depth / self.pitch, self.reach / self.pitch
         )
         # a hat at m is falling on the cell before it and rising on the one behind
-        hats = whole[1:] - first[1:] + first[:-1]
-        return self.pitch / (np.pi * self.material.conductivity) * hats
+        hats = whole[1:] - first[1:] + first[:-1]  # from count - 1 pitches behind to as far before
+        kernel = self.pitch / (np.pi * self.material.conductivity) * hats
+        return Convolution(kernel[self.count - 1 :], None, row=kernel[self.count - 1 :: -1])
 
     @cached_property
-    def surface_kernel(self) -> np.ndarray:
-        return self.kernel()
+    def surface(self) -> Convolution:
+        """`at` no depth."""
+        return self.at(0.0)
 
     def rise(self, flux: np.ndarray, depth: float = 0.0) -> np.ndarray:
         """T [K] at the nodes, at a depth [m], under fluxes (n,) [W/m^2] at the nodes."""
-        kernel = self.surface_kernel if depth == 0.0 else self.kernel(depth)
-        return convolved(kernel, flux)
+        return (self.surface if depth == 0.0 else self.at(depth)).apply(flux)
 
     def field(self, flux: np.ndarray, depths: ArrayLike) -> np.ndarray:
         """T [K] (m, n) at depths (m,) [m] below the nodes."""
         return np.array([self.rise(flux, float(depth)) for depth in np.ravel(depths)])
-
-
-def convolved(kernel: np.ndarray, flux: np.ndarray) -> np.ndarray:
-    """The sum over nodes j of kernel[i - j] flux[j] (n,), by FFT; kernel (2 n - 1,) from 1 - n."""
-    count = len(flux)
-    length = next_fast_len(3 * count - 2, real=True)
-    return irfft(rfft(kernel, length) * rfft(flux, length), length)[count - 1 : 2 * count - 1]
 
 
 def _cell_integrals(

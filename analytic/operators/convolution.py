@@ -7,7 +7,7 @@ on a periodic line the matrix is the circulant.
     S    symbol: transform of c, at a number of cycles per pitch [m^2/Pa]"""
 
 from collections.abc import Callable
-from functools import cached_property, wraps
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -20,19 +20,6 @@ DIRECT = 160  # nodes from which iterating is faster than a Cholesky factor
 LEVINSON, DIRECT_IN_A_ROW = 64, 256  # nodes in a row between which Levinson's recursion is fastest
 CROPS, CROPPED_FROM = 8, 4096  # lengths of stretches, and nodes from which they pay
 _MARGIN = 8  # a line is closed to a ring for the inverse by an eighth of its length
-
-
-def made_once(method: Callable) -> Callable:
-    """A method without arguments whose value is cached at the first call."""
-    name = f"_{method.__name__}"
-
-    @wraps(method)
-    def cached(self: object) -> object:
-        if name not in self.__dict__:
-            self.__dict__[name] = method(self)
-        return self.__dict__[name]
-
-    return cached
 
 
 class Convolution:
@@ -85,8 +72,8 @@ class Convolution:
             return 1.0 / self._transfer.real
         return 1.0 / self.symbol(np.arange(self.ring // 2 + 1) / self.ring)
 
-    @made_once
-    def coarsened(self) -> Self | None:
+    @cached_property
+    def coarser(self) -> Self | None:
         """Operator on elements twice as wide, centred on nodes 1, 3, 5, …; `arguments` are those of
         its constructor beside the number of elements and their `pitch`."""
         return type(self)(self.count // 2, 2.0 * self.pitch, *self.arguments)

@@ -20,7 +20,7 @@ import scipy.linalg
 from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.grid import restricted
-from analytic.operators.convolution import Convolution, cholesky_solve, made_once
+from analytic.operators.convolution import Convolution, cholesky_solve
 from analytic.operators.elements import at_whole_offsets, hat_galerkin, strip_displacement
 
 Element = Literal["hat", "strip"]
@@ -48,12 +48,13 @@ class ModelOperator(ComplianceOperator, Protocol):
                   or None: they are not so few, or nothing can be factored
     block         the matrix's rows and columns of some nodes
     cropped       the same on a stretch that holds a number of nodes in a row, or None
-    coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None"""
+    coarser       the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None"""
 
     count: int
     periodic: bool
     skew: bool
     ring: int | None
+    coarser: "ModelOperator | None"
 
     def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray: ...
 
@@ -62,8 +63,6 @@ class ModelOperator(ComplianceOperator, Protocol):
     def block(self, nodes: np.ndarray) -> np.ndarray: ...
 
     def cropped(self, span: int) -> "ModelOperator | None": ...
-
-    def coarsened(self) -> "ModelOperator | None": ...
 
 
 class HalfPlane(Convolution):
@@ -138,21 +137,27 @@ class SumOfConvolutions(Convolution):
             periodic=periodic,
         )
 
-    @made_once
-    def coarsened(self) -> "SumOfConvolutions | None":
+    @cached_property
+    def coarser(self) -> "SumOfConvolutions | None":
         """Sum of the same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        coarser = [body.coarsened() for body in self.bodies]
+        coarser = [body.coarser for body in self.bodies]
         return None if None in coarser else SumOfConvolutions(*coarser)
 
 
-class DenseMatrix:
-    """A compliance given as its matrix (n, n) [m^2/Pa]."""
+class DenseCompliance:
+    """A compliance given as its matrix (n, n) [m^2/Pa], for a body that no model comes close to.
+    Its symmetric part is positive definite, and all that counts unless it is `skew`. Nodes are then
+    solved by elimination: 1500 in 0.1 s."""
 
     periodic = False
     ring = None
 
     def __init__(self, matrix: np.ndarray, skew: bool = False) -> None:
-        self.matrix, self.count, self.skew = matrix, len(matrix), skew
+        even = 0.5 * (matrix + matrix.T)
+        self.matrix, self.count, self.skew = matrix if skew else even, len(matrix), skew
+        # hats finer than a body's elements leave it rank-deficient where nothing touches
+        ridge = RIDGE * np.max(np.diag(even)) * np.eye(self.count)
+        self._factor = scipy.linalg.cho_factor(even + ridge)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
@@ -165,24 +170,11 @@ class DenseMatrix:
     def cropped(self, span: int) -> None:
         """No part of a body has a compliance that depends on distances alone."""
 
-    @made_once
-    def coarsened(self) -> Self:
+    @cached_property
+    def coarser(self) -> Self:
         """Matrix of the same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         rows = restricted(self.matrix, self.periodic)
         return type(self)(restricted(rows.T, self.periodic).T, self.skew)
-
-
-class DenseCompliance(DenseMatrix):
-    """A compliance given as its matrix (n, n) [m^2/Pa], for a body that no model comes close to.
-    Its symmetric part is positive definite, and all that counts unless it is `skew`. Nodes are then
-    solved by elimination: 1500 in 0.1 s."""
-
-    def __init__(self, matrix: np.ndarray, skew: bool = False) -> None:
-        even = 0.5 * (matrix + matrix.T)
-        super().__init__(matrix if skew else even, skew)
-        # hats finer than a body's elements leave it rank-deficient where nothing touches
-        ridge = RIDGE * np.max(np.diag(even)) * np.eye(self.count)
-        self._factor = scipy.linalg.cho_factor(even + ridge)
 
     @cached_property
     def normal(self) -> "DenseCompliance":

@@ -9,6 +9,8 @@ the nearest terms and a power series of the others: right to rounding, as are th
     h   pitch [m]             E*  modulus [Pa]               c  cycles per pitch, k h/(2 pi)
     L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]"""
 
+from functools import cached_property
+
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 from scipy.fft import irfft
@@ -38,9 +40,10 @@ class PeriodicHalfPlane(Convolution):
         column = irfft(self._symbol(cycles), count)
         super().__init__(column, None, periodic=True)
 
-    def coarsened(self) -> "PeriodicHalfPlane | None":
+    @cached_property
+    def coarser(self) -> "PeriodicHalfPlane | None":
         """See `Convolution`; None for an odd number of elements and once few are left."""
-        return None if self.count % 2 or self.count < 2 * FEWEST else super().coarsened()
+        return None if self.count % 2 or self.count < 2 * FEWEST else super().coarser
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """Eigenvalues of the circulant [m^2/Pa]; `cycles` from 0 to 1/2, the first of them 0."""

@@ -18,12 +18,14 @@ not symmetric but positive definite as before, and its contact problem has exact
     phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
     C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]"""
 
+from functools import cached_property
+
 import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike
 
 from analytic.material import Material
-from analytic.operators.convolution import DIRECT, Convolution, made_once
+from analytic.operators.convolution import DIRECT, Convolution
 from analytic.operators.half_plane import HalfPlane
 
 
@@ -88,19 +90,19 @@ class CoupledPair(Convolution):
             return None
         return scipy.linalg.solve(self.block(nodes), right, check_finite=False)
 
-    @made_once
-    def coarsened(self) -> "CoupledPair | None":
+    @cached_property
+    def coarser(self) -> "CoupledPair | None":
         """Pair on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        normal, tangential = self.normal.coarsened(), self.tangential.coarsened()
+        normal, tangential = self.normal.coarser, self.tangential.coarser
         if normal is None or tangential is None:
             return None
         return CoupledPair(normal, tangential, self.friction)
 
 
 def coupled_half_planes(
-    count: int, pitch: float, modulus: float, friction_dundurs: float, datum: float | None = None
+    count: int, pitch: float, modulus: float, friction_dundurs: float
 ) -> CoupledPair:
-    """Two half-planes; count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`,
-    `friction_dundurs` is mu beta."""
-    normal = HalfPlane(count, pitch, modulus, datum)
+    """Two half-planes; count, pitch h [m] and modulus E* [Pa] as in `HalfPlane`, `friction_dundurs`
+    is mu beta."""
+    normal = HalfPlane(count, pitch, modulus)
     return CoupledPair(normal, TangentialHalfPlane(count, pitch, friction_dundurs / modulus), 1.0)

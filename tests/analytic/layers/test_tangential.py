@@ -52,7 +52,7 @@ def test_operator_does_no_work_and_coarsens(base):
     matrix = np.array([fine.apply(column) for column in np.eye(32)]).T
     scale = np.abs(matrix).max()
     assert matrix == pytest.approx(-matrix.T, abs=1e-14 * scale)
-    coarse, refine = fine.coarsened(), of_narrow_hats(32)
+    coarse, refine = fine.coarser, of_narrow_hats(32)
     coarsened = np.array([coarse.apply(column) for column in np.eye(16)]).T
     expected = refine.T @ matrix @ refine
     inner = slice(15)  # the last coarse hat overhangs

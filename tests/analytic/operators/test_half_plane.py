@@ -63,7 +63,7 @@ def test_coarsened_operator_agrees_on_coarse_hats():
     """A coarse hat is 1/2, 1, 1/2 of fine ones, and so is the operator between them."""
     fine, refine = HalfPlane(15, PITCH, MODULUS), of_narrow_hats(15)
     expected = refine.T @ toeplitz(fine.column) @ refine
-    assert toeplitz(fine.coarsened().column) == pytest.approx(expected, rel=1e-11)
+    assert toeplitz(fine.coarser.column) == pytest.approx(expected, rel=1e-11)
 
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
@@ -91,9 +91,9 @@ def test_sum_of_convolutions_is_one_body_of_the_combined_modulus(periodic):
     assert both.apply(values) == pytest.approx(combined.apply(values), rel=1e-12)
     inverse = combined.precondition(values)
     assert both.precondition(values) == pytest.approx(inverse, abs=1e-11 * np.abs(inverse).max())
-    coarse, alone = both.coarsened(), combined.coarsened()
+    coarse, alone = both.coarser, combined.coarser
     assert coarse.apply(values[:300]) == pytest.approx(alone.apply(values[:300]), rel=1e-12)
-    assert coarse is both.coarsened()
+    assert coarse is both.coarser
 
 
 def test_bodies_with_other_elements_are_not_added():

@@ -118,11 +118,11 @@ def test_mean_pressure_has_the_compliance_of_the_longest_wave():
 def test_coarsened_operator_agrees_on_coarse_hats_around_the_circle():
     """A coarse hat is 1/2, 1, 1/2 of fine ones, its middle at every odd node."""
     fine, refine = PeriodicHalfPlane(16, PITCH, MODULUS), of_narrow_hats(16, around=True)
-    coarse = fine.coarsened()
+    coarse = fine.coarser
     expected = refine.T @ circulant(fine.column) @ refine
     assert circulant(coarse.column) == pytest.approx(expected, rel=1e-12)
-    assert coarse.coarsened().coarsened() is None
-    assert PeriodicHalfPlane(9, PITCH, MODULUS).coarsened() is None
+    assert coarse.coarser.coarser is None
+    assert PeriodicHalfPlane(9, PITCH, MODULUS).coarser is None
 
 
 def test_full_contact_has_the_exact_wave():

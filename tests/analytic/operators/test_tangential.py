@@ -121,7 +121,7 @@ def test_coupled_half_plane_is_normal_and_tangential_together(count):
     assert coupled.apply(pressure) == pytest.approx(expected, rel=1e-12)
     if count > 1:
         half, refine = pressure[: count // 2], of_narrow_hats(count)
-        coarse = coupled.coarsened()
+        coarse = coupled.coarser
         assert coarse.normal.datum == coupled.normal.datum
         if count % 2:
             moved, expected = coarse.apply(half), refine.T @ coupled.apply(refine @ half)
@@ -170,9 +170,9 @@ def test_contact_of_the_whole_matrix_is_that_of_the_body(friction_dundurs, const
 def test_coarser_hats_of_a_matrix_are_sums_of_finer_ones():
     """Equal to those of the half-plane, hats twice as wide; of an even count the last is short."""
     for count in (41, 40):
-        fine = coupled_half_planes(count, 1e-6, MODULUS, 0.4, 1e-3)
-        coarse = whole(fine).coarsened()
-        exact = fine.coarsened().block(np.arange(count // 2))
+        fine = coupled_half_planes(count, 1e-6, MODULUS, 0.4)
+        coarse = whole(fine).coarser
+        exact = fine.coarser.block(np.arange(count // 2))
         inner = slice(None) if count % 2 else slice(None, -1)
         block = coarse.matrix[inner, inner]
         assert block == pytest.approx(exact[inner, inner], rel=1e-11)
