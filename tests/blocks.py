@@ -112,6 +112,11 @@ def graded(extent: float, first: float, ratio: float) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * extent
 
 
+def widened(middle: np.ndarray, beyond: np.ndarray) -> np.ndarray:
+    """Ascending x: `middle`, and on both sides of it the distances `beyond` its ends, from 0 on."""
+    return np.concatenate([middle[0] - beyond[:0:-1], middle, middle[-1] + beyond[1:]])
+
+
 def structured_block(
     x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
 ) -> BlockMesh:

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 from nodal_stress import nodal_stress
 from pressed_bodies import dense_contact
 from scenes import hat_nodes
@@ -29,8 +29,7 @@ def degree(request) -> int:
 @pytest.fixture(scope="session")
 def small_block() -> BlockMesh:
     """A block of vertical lines 12 half-widths wide and 6 deep: 2200 unknowns."""
-    beyond = graded(4.0, 0.3, 1.4)
-    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    x = widened(np.linspace(-2.0, 2.0, 25), graded(4.0, 0.3, 1.4))
     return structured_block(x, graded(6.0, 0.14, 1.2))
 
 
@@ -99,8 +98,7 @@ class HatGrid:
 
     def body(self, modulus=1.0, poisson=0.3, height=None, support=None) -> ElasticBody:
         outer = graded(10.0, 0.1, 1.6)
-        x = np.concatenate([-1.5 - outer[:0:-1], np.linspace(-1.5, 1.5, 31), 1.5 + outer[1:]])
-        mesh = structured_block(x, outer, height)
+        mesh = structured_block(widened(np.linspace(-1.5, 1.5, 31), outer), outer, height)
         return elastic_body(mesh, Material(modulus, poisson), support or Support())
 
     def compliance(self, body: ElasticBody) -> FiniteElementCompliance:

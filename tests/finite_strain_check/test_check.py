@@ -9,10 +9,11 @@ from scenes import finite_elements, problem
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
+from comparisons.models.level import Level
 from comparisons.scenes.materials import solids
 from tests.finite_strain_check import cases, check
 from tests.finite_strain_check.contact import State, SurfacePair
-from tests.finite_strain_check.figures import figures
+from tests.finite_strain_check.figures import ContactFigures, figures
 from tests.finite_strain_check.mesh import interpolated, refined, strip
 from tests.finite_strain_check.solve import Task, solutions
 
@@ -30,12 +31,26 @@ def smooth(curvature: float, law: str) -> Task:
 
 def by_the_project(edges: int, **tables: dict):
     """The scene of a rigid circular roller, of 2 mm unless another is given, by the project's own
-    elements, so many to Hertz's half-width: posed, solved, and its stresses."""
+    elements, so many to Hertz's half-width: posed, and solved with its stresses."""
     roller = {"radius": 2e-3, "rigid": True} | tables.pop("roller", {})
     finite = {"deformation": "finite", "roller_shape": "circle"}
     scene = problem({"roller": roller, "finite_element": finite, "stress": {}} | tables)
-    level = finite_elements(scene, scene.hertz.half_width / edges, fields=True)
-    return scene, level, level.stress
+    return scene, finite_elements(scene, scene.hertz.half_width / edges, fields=True)
+
+
+def on_a_flat(load: float, friction: float) -> ContactFigures:
+    """A rigid roller of 2 mm on smooth steel, under a load [N/m]."""
+    x = np.linspace(-500.0, 500.0, 101)
+    return cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load / 1e3, friction), (4.0, 2.0))[-1]
+
+
+def are_alike(level: Level, other: ContactFigures, **near: float) -> None:
+    """Figures of the project's own elements, and of these, by how near they are, relatively."""
+    own = {name: abs(largest.value) for name, largest in level.stress.extremes.items()}
+    own |= {"peak": level.solution.pressure.max(), "deformed_length": level.contact_length}
+    for name, most in near.items():
+        unit = 1e-6 if name == "deformed_length" else 1e9
+        assert own[name] == pytest.approx(unit * getattr(other, name), rel=most), name
 
 
 @cache
@@ -115,16 +130,14 @@ def test_a_coated_body_is_that_of_the_projects_own_elements():
     task = replace(smooth(0.2, "neo-hookean"), coating=coating)
     *_, last = solutions(task, (8.0, 4.0), 200.0)
     result, peak = figures(*last), 2.0 * task.load / (100.0 * np.pi)
-    _, level, stress = by_the_project(
+    _, level = by_the_project(
         32,
         roller={"radius": 500e-6},
         body={"youngs_modulus": 1e9, "poissons_ratio": body[1]},
         coating={"thickness": 64e-6, "youngs_modulus": 3e9, "poissons_ratio": coating[1]},
         load={"hertz_peak_pressure": 1e9 * peak},
     )
-    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=1e-3)
-    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=5e-3)
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=4e-3)
+    are_alike(level, result, peak=1e-3, deformed_length=5e-3, txz=4e-3)
 
 
 @pytest.mark.parametrize("name", ["rail steel", "aluminium alloy", "fused silica"])
@@ -133,7 +146,7 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name):
     solid = solids()[name]
     load = {"hertz_peak_pressure": 0.018 * solid.material.youngs_modulus}
     wave = {"kind": "sinusoid", "wavelength": 40e-6, "amplitude": 0.05e-6, "length": 1e-3}
-    scene, level, stress = by_the_project(48, body={"material": name}, load=load, profile=wave)
+    scene, level = by_the_project(48, body={"material": name}, load=load, profile=wave)
     ell, m, _ = solid.law.murnaghan
     law = ell / solid.material.shear_modulus, m / solid.material.shear_modulus
     radius, load = 2000.0, scene.hertz.load_per_length / 1e3
@@ -141,11 +154,9 @@ def test_measured_constants_are_those_of_the_projects_own_elements(name):
     height = 0.05 * np.cos(2.0 * np.pi * x / 40.0)
     constants = solid.material.youngs_modulus / 1e9, solid.material.poissons_ratio
     task = Task(x, height, constants, None, radius, load, 0.0, law)
-    result = cases.solved(task, (4.0, 2.0))[-1]
-    length = 1e-6 * result.deformed_length
-    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=2e-3)
-    assert level.contact_length == pytest.approx(length, rel=1.5e-2)  # an element at each end
-    assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=6e-3)
+    # the length but for an element at each end
+    near = {"peak": 2e-3, "deformed_length": 1.5e-2, "tau1": 6e-3}
+    are_alike(level, cases.solved(task, (4.0, 2.0))[-1], **near)
 
 
 def test_model_errors_under_friction_are_within_what_a_run_states():
@@ -159,9 +170,7 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
         "stress": {},
     }
     run = crosscheck.run(tables)
-    x = np.linspace(-500.0, 500.0, 101)
-    load = run.outcome.problem.hertz.load_per_length / 1e3
-    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.3), (4.0, 2.0))[-1]
+    result = on_a_flat(run.outcome.problem.hertz.load_per_length, 0.3)
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         name, unit = cases.QUANTITIES[quantity]
         half_plane = run.figure(quantity, "half_plane").value
@@ -175,14 +184,10 @@ def test_strong_friction_is_those_of_the_projects_own_elements():
     """Friction of 0.5, which on tilted tangents bears 0.2 % of the load: peak, length and txz."""
     body = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"}
     hertz = {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.5}
-    scene, level, stress = by_the_project(48, body=body, load=hertz)
-    load = scene.hertz.load_per_length / 1e3
-    x = np.linspace(-500.0, 500.0, 101)
-    result = cases.solved(Task(x, 0.0 * x, STEEL, None, 2000.0, load, 0.5), (4.0, 2.0))[-1]
-    assert level.solution.load == pytest.approx(scene.hertz.load_per_length, rel=1e-6)
-    assert level.solution.pressure.max() == pytest.approx(1e9 * result.peak, rel=3e-4)
-    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=3e-3)
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
+    scene, level = by_the_project(48, body=body, load=hertz)
+    load = scene.hertz.load_per_length
+    assert level.solution.load == pytest.approx(load, rel=1e-6)
+    are_alike(level, on_a_flat(load, 0.5), peak=3e-4, deformed_length=3e-3, txz=1e-3)
 
 
 def test_a_capped_pressure_is_that_of_the_projects_own_elements():
@@ -197,11 +202,9 @@ def test_a_capped_pressure_is_that_of_the_projects_own_elements():
     body = {"youngs_modulus": 1e9, "poissons_ratio": 0.3, "law": "neo-hookean"}
     body["hardness"] = 1e9 * share * peak
     roller = {"radius": 100e-6 / curvature}
-    _, level, stress = by_the_project(48, roller=roller, body=body, load=hertz)
+    _, level = by_the_project(48, roller=roller, body=body, load=hertz)
     assert level.solution.converged
-    assert level.contact_length == pytest.approx(1e-6 * result.deformed_length, rel=1e-3)
-    assert abs(stress.extremes["txz"].value) == pytest.approx(1e9 * result.txz, rel=1e-3)
-    assert stress.extremes["tau1"].value == pytest.approx(1e9 * result.tau1, rel=4e-3)
+    are_alike(level, result, deformed_length=1e-3, txz=1e-3, tau1=4e-3)
 
 
 def test_small_strains_meet_the_half_plane_on_a_rough_body():

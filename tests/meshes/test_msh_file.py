@@ -6,6 +6,7 @@ import warnings
 import meshio
 import numpy as np
 import pytest
+import pyvista
 from scenes import python
 
 from meshes.block import BlockSpec, real_points
@@ -14,6 +15,8 @@ from meshes.msh_file import side_lines, write_msh
 from meshes.real_shape import roughen
 
 SPEC = BlockSpec(3.0, 4.0, np.array([[-1.0, 0.0], [0.5, 1.0]]), 0.1, 0.3, (-1.0, 1.0, 0.5, 0.1))
+
+NOTES = {"title": "Waves of 1 µm & <more>"}
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +27,7 @@ def mesh():
 @pytest.fixture(scope="module")
 def path(mesh, tmp_path_factory):
     path = tmp_path_factory.mktemp("mesh") / "mesh.msh"
-    write_msh(mesh, path)
+    write_msh(mesh, path, NOTES)
     return path
 
 
@@ -37,6 +40,8 @@ def test_meshio_reads_the_real_body_without_a_warning(mesh, path, capsys):
     assert np.array_equal(file.points[:, :2], real_points(mesh))
     assert not file.points[:, 2].any()
     assert np.array_equal(file.cells_dict["triangle6"], mesh.triangles)
+    assert np.array_equal(pyvista.read(path).points, file.points)
+    assert NOTES["title"] in path.read_bytes().decode("utf-8", errors="replace")
     assert {name: int(tag[1]) for name, tag in file.field_data.items()} == {
         "top": 1, "right": 1, "bottom": 1, "left": 1, "body": 2
     }  # fmt: skip
@@ -78,23 +83,33 @@ gmsh.initialize(argv=[], readConfigFiles=False, interruptible=False)
 gmsh.option.setNumber("General.Terminal", 0)
 gmsh.logger.start()
 gmsh.open({str(path)!r})
+tags, points, _ = gmsh.model.mesh.getNodes()
+[kind], [elements], [nodes] = gmsh.model.mesh.getElements(2)
 groups = gmsh.model.getPhysicalGroups()
 print(json.dumps({{
     "log": gmsh.logger.get(),
-    "names": sorted(gmsh.model.getPhysicalName(*group) for group in groups),
-    "triangles": len(gmsh.model.mesh.getElementsByType(9)[0]),
-    "least": min(gmsh.model.mesh.getElementQualities(
-        gmsh.model.mesh.getElementsByType(9)[0], "minDetJac")),
+    "names": [gmsh.model.getPhysicalName(*group) for group in groups],
+    "tags": tags.tolist(),
+    "points": points.tolist(),
+    "kind": int(kind),
+    "nodes": nodes.tolist(),
+    "views": len(gmsh.view.getTags()),
+    "least": min(gmsh.model.mesh.getElementQualities(elements, "minDetJac")),
 }}))
 """
     done = python("-c", code)
     answer = json.loads(done.stdout.splitlines()[-1])
     assert not [line for line in answer["log"] if not line.startswith("Info")]
-    assert answer["names"] == ["body", "bottom", "left", "right", "top"]
-    assert answer["triangles"] == len(mesh.triangles)
-    assert answer["least"] > 0.0
+    assert answer["names"] == ["top", "right", "bottom", "left", "body"]
+    order = np.argsort(answer["tags"])
+    assert np.array_equal(np.sort(answer["tags"]), np.arange(1, len(mesh.points) + 1))
+    points = np.reshape(answer["points"], (-1, 3))[order]
+    assert np.array_equal(points, np.pad(real_points(mesh), ((0, 0), (0, 1))))
+    assert answer["kind"] == 9  # triangles of second order
+    assert np.array_equal(np.reshape(answer["nodes"], (-1, 6)) - 1, mesh.triangles)
+    assert answer["least"] > 0.0 and not answer["views"]
 
 
 def test_same_mesh_same_file(mesh, path, tmp_path):
-    write_msh(mesh, tmp_path / "again.msh")
+    write_msh(mesh, tmp_path / "again.msh", NOTES)
     assert (tmp_path / "again.msh").read_bytes() == path.read_bytes()

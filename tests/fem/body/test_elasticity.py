@@ -19,7 +19,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from blocks import graded, hooke, structured_block
+from blocks import graded, hooke, structured_block, widened
 from scenes import hat_nodes
 from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.linalg import norm, splu
@@ -342,9 +342,8 @@ def test_a_thin_bonded_layer(elements, nu, expected):
     hats = hat_nodes(-3.875, 0.125, count)
     pressure = (1.0 - (hats[1:-1] / 4.0) ** 2) ** 2
     exact = LayeredSurface(count, 0.125, LayeredBody(material, 1.0, "bonded")).apply(pressure)
-    outer = 5.0 + graded(12.0, 1.0 / elements, 1.3)  # square cells under the hats
-    middle = np.linspace(-5.0, 5.0, 10 * elements + 1)
-    x = np.concatenate([-outer[:0:-1], middle, outer[1:]])
+    middle = np.linspace(-5.0, 5.0, 10 * elements + 1)  # square cells under the hats
+    x = widened(middle, graded(12.0, 1.0 / elements, 1.3))
     mesh = structured_block(x, np.linspace(0.0, 1.0, elements + 1))
     work = [pressure @ moved for moved in shifts(mesh, material, hats, pressure)]
     missing = 1.0 - np.array(work) / (pressure @ exact)
@@ -360,9 +359,8 @@ def test_a_large_block(nu, expected):
     material, count, edge = Material(1.0, nu), 31, 1 / 16
     hats = hat_nodes(-15 / 16, edge, count)
     pressure = np.sqrt(1.0 - hats[1:-1] ** 2)
-    outer = 1.25 + graded(100.0, edge, 1.4)
-    x = np.concatenate([-outer[:0:-1], np.linspace(-1.25, 1.25, 41), outer[1:]])
-    mesh = structured_block(x, graded(100.0, edge, 1.4))
+    outer = graded(100.0, edge, 1.4)
+    mesh = structured_block(widened(np.linspace(-1.25, 1.25, 41), outer), outer)
     half_plane = HalfPlane(count, edge, material.plane_strain_modulus)
     exact = np.diff(half_plane.apply(pressure))
     off = [

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 
 from fem.body.triangle import Locator, collapsed_gauss, shapes
 from meshes.block import real_points
@@ -16,9 +16,8 @@ def wavy(x):
 @pytest.fixture(scope="module", params=["straight", "curved"])
 def case(request):
     outer = graded(2.0, 0.05, 1.3)
-    x = np.concatenate([-1 - outer[:0:-1], np.linspace(-1, 1, 41), 1 + outer[1:]])
-    curved = request.param == "curved"
-    mesh = structured_block(x, graded(2.0, 0.05, 1.3), wavy if curved else None, seed=11)
+    curved, x = request.param == "curved", widened(np.linspace(-1, 1, 41), outer)
+    mesh = structured_block(x, outer, wavy if curved else None, seed=11)
     return real_points(mesh), mesh.triangles, Locator(real_points(mesh), mesh.triangles, curved)
 
 

@@ -3,7 +3,7 @@ shifted."""
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 from scenes import hat_nodes
 
 from analytic.material import Material
@@ -19,8 +19,8 @@ HATS = hat_nodes(-1.0, PITCH, COUNT)
 
 
 def block(edge):
-    outer, middle = graded(298.5, 1.5 * edge, 1.25), np.linspace(-1.5, 1.5, round(3.0 / edge) + 1)
-    x = np.concatenate([-1.5 - outer[:0:-1], middle, 1.5 + outer[1:]])
+    middle = np.linspace(-1.5, 1.5, round(3.0 / edge) + 1)
+    x = widened(middle, graded(298.5, 1.5 * edge, 1.25))
     return structured_block(x, graded(300.0, edge, 1.25))
 
 

@@ -4,7 +4,7 @@ Thermal stresses: free and constrained bodies, waves of temperature in a half-pl
 import numpy as np
 import pytest
 from blocks import structured_block
-from heat_loads import flux_load, steady
+from heat_loads import BAND, OPEN, UNIT, flux_load, reach_of_half_plane, steady, under_band
 from moving_band import band_surface
 from scenes import reference
 
@@ -23,10 +23,7 @@ from meshes.build import build_block
 from meshes.real_shape import bent, rounded
 from meshes.thermal_layer import thermal_spec
 
-UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 MATERIAL = ThermalMaterial(2.0, 3.0, 0.5)
-BAND = np.linspace(-1.0, 1.0, 3)
-OPEN = Surroundings("open", "open")
 JAEGER = reference("h_heat")["jaeger"]
 
 
@@ -98,13 +95,9 @@ def test_manufactured_solution_on_a_turning_disc():
     assert np.log2(coarse / fine) == pytest.approx(3.0, abs=0.15)
 
 
-def under_band(peclet, layers):
-    """Surface x and k T / (q l) of a half-plane under a unit band |x| < 1 that moves towards +x."""
-    velocity = -2.0 * peclet
-    law = {"length": 1 / velocity, "layers": layers}
-    spec = thermal_spec([[-1, 1]], 0.05, half_width=10, depth=10, **law)
-    body = thermal_body(build_block(spec), UNIT)
-    rise = steady(Conduction(body, velocity, OPEN), flux_load(body, BAND, np.ones(3)))
+def surface_under_band(peclet, layers):
+    """Surface x and k T / (q l)."""
+    body, _, rise = under_band(peclet, 0.05, layers=layers)
     return body.surface.x, rise[body.surface.point]
 
 
@@ -112,7 +105,7 @@ def under_band(peclet, layers):
     "exact", JAEGER, ids=lambda row: f"Peclet number {row['Pe_Vl_over_2kappa']}"
 )
 def test_jaeger_s_band(exact):
-    x, rise = under_band(float(exact["Pe_Vl_over_2kappa"]), 2)
+    x, rise = surface_under_band(float(exact["Pe_Vl_over_2kappa"]), 2)
     largest = float(exact["max_kT_over_ql"])
     assert rise.max() == pytest.approx(largest, rel=2e-4)
     for place in (-2, -1, -0.5, 0, 0.5, 1, 1.5):
@@ -123,11 +116,11 @@ def test_jaeger_s_band(exact):
 @pytest.mark.parametrize(("peclet", "bound"), [(100.0, 1e-3), (1000.0, 2e-3)])
 def test_a_fast_band_needs_no_upwinding(peclet, bound):
     """The whole surface, with its wake and what lies ahead of the band."""
-    x, rise = under_band(peclet, 2)
+    x, rise = surface_under_band(peclet, 2)
     exact = band_surface(x, peclet)
     assert np.abs(rise - exact).max() < bound * exact.max()
     assert rise.min() > -bound * exact.max()
-    coarse = np.abs(under_band(peclet, 1)[1].max() / exact.max() - 1.0)
+    coarse = np.abs(surface_under_band(peclet, 1)[1].max() / exact.max() - 1.0)
     assert coarse < 1e-3 and np.abs(rise.max() / exact.max() - 1.0) < 5e-5
 
 
@@ -162,13 +155,8 @@ def disc(radius, reach, velocity):
 @pytest.mark.parametrize("part", [0.3, 1.0, 1.2])
 @pytest.mark.parametrize("radius", [30.0, 60.0])
 def test_a_disc_at_rest(radius, part):
-    """1/z maps the disc to a half-plane and the arc to a circle about the image of infinity; with
-    its mirror image that is a lens, whose logarithmic capacity is known (pi h / beta: h half its
-    height, beta its outer angle). The contact sees a half-plane that reaches as far as 1 over it.
-    """
     reach = part * radius
-    outer, height = np.pi - np.arccos(0.5 * part), np.sqrt(reach**-2 - 0.25 * radius**-2)
-    as_far = 2.0 * outer / (np.pi * height)
+    as_far = reach_of_half_plane(reach, radius)
     exact = (np.log(as_far) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(as_far / |x|)
     highest = disc(radius, reach, 0.0)[1].max()
     assert highest == pytest.approx(exact, rel=1e-3)

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from heat_loads import flux_load, steady
+from heat_loads import OPEN, UNIT, flux_load, steady
 from moving_band import band_surface
 
 from analytic.heat.moving_source import HeatedSurface
@@ -17,8 +17,7 @@ from fem.heat.partition import FrictionalHeat
 from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 
-UNIT = ThermalMaterial(1.0, 1.0, 1.0)
-OPEN, HELD = Surroundings("open", "open"), Surroundings("held", "held")
+HELD = Surroundings("held", "held")
 X = np.linspace(-1.0, 1.0, 41)
 EVEN = np.ones(41)
 

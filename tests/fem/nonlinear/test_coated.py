@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 from nodal_stress import nodal_stress
 from pressed_bodies import MetalScene, press_finitely, press_linearly
 from scenes import hat_nodes
@@ -110,8 +110,7 @@ REACH = 11.0 / 6.0
 @pytest.fixture(scope="module")
 def mesh_of():
     """A block with a row of elements of a thickness at its surface."""
-    beyond = graded(4.0, 0.3, 1.4)
-    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    x = widened(np.linspace(-2.0, 2.0, 25), graded(4.0, 0.3, 1.4))
     return lambda thickness: structured_block(x, np.append(0.0, thickness + graded(6.0, 0.14, 1.2)))
 
 

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 from flat_punch import LIMIT, past_the_limit
 from flow_energy import AccountedFiniteHistory
 from scenes import hat_nodes
@@ -46,8 +46,7 @@ HERTZ = np.sqrt(np.maximum(1.0 - X**2, 0.0))
 @pytest.fixture(scope="module")
 def made():
     """Bodies by the height of their surface."""
-    beyond = graded(6.0, 0.3, 1.4)
-    x = np.concatenate([-2.0 - beyond[:0:-1], np.linspace(-2.0, 2.0, 25), 2.0 + beyond[1:]])
+    x = widened(np.linspace(-2.0, 2.0, 25), graded(6.0, 0.3, 1.4))
     mesh = partial(structured_block, x, graded(8.0, 0.14, 1.2))
     return lambda height: elastic_body(mesh(height), METAL, Support())
 

@@ -21,23 +21,18 @@ def tau1(stress):
     return stress.tau1
 
 
-@pytest.mark.parametrize(("edges", "depth"), [(10, 1e-2), (20, 5e-3), (40, 3e-3)])
-def test_hertzs_largest_shear_and_its_depth(pressed, edges, depth):
+@pytest.mark.parametrize(
+    ("edges", "friction", "depth", "place"),
+    [(10, 0.0, 1e-2, 0.05), (20, 0.0, 5e-3, 0.05), (40, 0.0, 3e-3, 0.05)]
+    + [(20, mu, 2e-2, 0.03) for mu in (0.1, 0.2)],
+)
+def test_hertzs_largest_shear_and_its_place(pressed, edges, friction, depth, place):
     case = pressed(edges)
-    highest = maximum(case.body, case.stress(0.0), tau1)
-    assert highest.value == pytest.approx(case.hertz.tau1_max, rel=3e-3)
-    assert highest.z == pytest.approx(case.hertz.tau1_max_depth, rel=depth)
-    assert abs(highest.x) < 0.05
-
-
-@pytest.mark.parametrize("friction", [0.1, 0.2])
-def test_largest_shear_under_friction(pressed, friction):
-    case = pressed(20)
     exact = hertz_extremes(case.hertz, friction).tau1
     highest = maximum(case.body, case.stress(friction), tau1)
     assert highest.value == pytest.approx(exact.value, rel=3e-3)
-    assert highest.z == pytest.approx(exact.z, rel=2e-2)
-    assert highest.x == pytest.approx(exact.x, abs=3e-2)
+    assert highest.z == pytest.approx(exact.z, rel=depth)
+    assert highest.x == pytest.approx(exact.x, abs=place)
 
 
 def test_largest_orthogonal_shear(pressed):

@@ -3,7 +3,7 @@ against 30-digit values of hats, Hooke's law; loads on inclined faces."""
 
 import numpy as np
 import pytest
-from blocks import Manufactured, graded, hooke, structured_block
+from blocks import Manufactured, graded, hooke, structured_block, widened
 from scenes import reference
 
 from analytic.material import Material
@@ -76,9 +76,9 @@ def test_a_jump_at_an_interface_is_kept(thickness):
 def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(rng):
     """Patches so coarse that five radii reach the load. A linear stress that leaves the surface
     free is exact; that of a hat of force 1, smooth there, is off by a small part of 1 / (pi r)."""
-    hats, outer = np.linspace(-1.0, 1.0, 33), 1.0 + graded(300.0, 0.05, 1.25)
+    hats = np.linspace(-1.0, 1.0, 33)
     rough = np.append(0.0, np.append(rng.normal(scale=1e-3, size=31), 0.0))
-    line = np.concatenate([-outer[:0:-1], hats, outer[1:]])
+    line = widened(hats, graded(300.0, 0.05, 1.25))
     mesh = structured_block(line, graded(600.0, 0.05, 1.25), lambda x: np.interp(x, hats, rough))
     body = elastic_body(mesh, MATERIAL, Support())
     load = SurfaceLoad(body, hats, rng.uniform(0.5, 1.5, 31), 0.0, straight_down)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blocks import graded, structured_block
+from blocks import graded, structured_block, widened
 from layer_stresses import layer_field
 from nodal_stress import displacement_under, nodal_stress
 from scenes import hat_nodes
@@ -148,10 +148,9 @@ def test_the_errors_fall_with_the_elements(pressed, friction):
 def coated():
     """A coating three times as stiff on a large block under an ellipse of pressure."""
     edge, thickness = 0.05, 0.25
-    side = 1.4 + graded(1000.0, edge, 1.2)[1:]
-    line = np.concatenate([-side[::-1], edge * np.arange(-28, 29), side])
-    down = thickness + graded(1000.0, edge, 1.2)[1:]
-    mesh = structured_block(line, np.concatenate([edge * np.arange(6), down]))
+    beyond = graded(1000.0, edge, 1.2)
+    down = np.concatenate([edge * np.arange(5), thickness + beyond])
+    mesh = structured_block(widened(edge * np.arange(-28, 29), beyond), down)
     coating = Coating(Material(3.0, 0.2), thickness)
     body = elastic_body(mesh, MATERIAL, Support(), coating=coating)
     x = edge * np.arange(-24, 25)

@@ -4,19 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from heat_loads import flux_load, steady
+from heat_loads import reach_of_half_plane, under_band
 from moving_band import band_maximum, band_mean
 from scenes import BOTH_CONDUCT, SMOOTH, half_plane_at, problem
 
 from analytic.grid import HatGrid
-from analytic.material import ThermalMaterial
 from comparisons.figures.convergence import grid_convergence
 from comparisons.studies.heat.finite_elements import finite_element_heat
 from comparisons.studies.heat.half_space import half_space_heat, peclet_numbers, what_it_contains
-from fem.heat.body import thermal_body
-from fem.heat.conduction import Conduction, Surroundings
-from meshes.build import build_block
-from meshes.thermal_layer import thermal_spec
 
 INSULATOR = {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # of a diffusivity like steel's
 INSULATING_BODY = {name.replace("roller", "body"): value for name, value in INSULATOR.items()}
@@ -134,14 +129,11 @@ def test_a_square_at_rest_is_a_half_space_with_its_reach():
 
 @pytest.mark.parametrize("reach", [None, 2e-3])
 def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
-    """All heat enters the roller. A disc's contact sees a half-space that reaches farther, as far
-    as tests/fem/heat/test_conduction.py has it."""
+    """All heat enters the roller. A disc's contact sees a half-space that reaches farther."""
     posed = made(slide_to_roll=2.0, **INSULATING_BODY, **({"reach": reach} if reach else {}))
     level, heat, radius = half_plane_at(posed), posed.scene.heat, posed.scene.roller.radius
     far = heat.reach or radius
-    half = 0.5 * far / radius
-    height = np.sqrt(1.0 - half**2) / far
-    farther = 2.0 * (np.pi - np.arccos(half)) / (np.pi * height) / far
+    farther = reach_of_half_plane(far, radius) / far
     disc, flat = (finite_element_heat(posed, level, without=w) for w in (set(), {"roller"}))
     assert disc.fraction == pytest.approx(0.0, abs=1e-4)
     step = np.log(farther) * disc.heat.sum() * level.grid.pitch
@@ -184,11 +176,8 @@ def test_largest_temperature_of_a_band():
 
 def of_band(peclet, number):
     """k T / (q l) of the band: the largest, and the mean."""
-    law = {"length": -0.5 / peclet, "layers": 0.5 * 2**number, "growth": 0.4 / np.sqrt(2.0**number)}
-    spec = thermal_spec([[-1.0, 1.0]], 0.2 / 2**number, half_width=10.0, depth=10.0, **law)
-    body = thermal_body(build_block(spec), ThermalMaterial(1.0, 1.0, 1.0))
-    load = flux_load(body, np.linspace(-1.0, 1.0, 3), np.ones(3))
-    rise = steady(Conduction(body, -2.0 * peclet, Surroundings("open", "open")), load)
+    law = {"layers": 0.5 * 2**number, "growth": 0.4 / np.sqrt(2.0**number)}
+    _, load, rise = under_band(peclet, 0.2 / 2**number, **law)
     return rise.max(), 0.5 * load @ rise
 
 
