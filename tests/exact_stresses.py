@@ -11,7 +11,7 @@ from analytic.exact.sliding import SlidingContact
 from analytic.exact.westergaard import WestergaardContact
 from analytic.layers.layered import LayeredBody, added_stress
 from analytic.numerics import points_below
-from analytic.stress.elements import FrictionStress, hat_at, strip_between
+from analytic.stress.elements import FrictionStress, hat_at
 from analytic.stress_state import StressState
 
 
@@ -75,12 +75,6 @@ def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
     """Stress under unit p and q at x = 0, linear to zero at -pitch, pitch; x, z >= 0 [m]."""
     x, z = points_below(x, z)
     return hat_at(x / pitch, z / pitch)
-
-
-def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
-    """Stress under unit p and q on |x| < half_width, at x, z [m] (broadcast together), z >= 0."""
-    x, z = points_below(x, z)
-    return strip_between(x + half_width, x, x - half_width, z)
 
 
 def wave_stress(

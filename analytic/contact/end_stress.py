@@ -81,7 +81,7 @@ class EndStress:
             near = np.hypot(away, z) < REACH * pitch
             if near.any():
                 inside, at = slice(patch.first, patch.last + 1), (x[near], z[near])
-                hats = LoadedLine(self.x_nodes[inside], self.pressure[inside], pitch, "hat")
+                hats = LoadedLine(self.x_nodes[inside], self.pressure[inside], pitch)
                 change[:, near] += patch.parts(*at) - tree_stress(hats, *at)
         return change
 

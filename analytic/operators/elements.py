@@ -3,7 +3,6 @@
 Dimensionless integrals of the logarithm over an element, with lengths in pitches h and the
 element centred at 0:
 
-    strip     p on |s| < 1/2                      L_u(x) = int ln|x-s| ds
     hat       p (1-|s|) on |s| < 1                L_h(x) = int (1-|s|) ln|x-s| ds
     galerkin  a hat weighed with a hat at x       L_g(x) = int (1-|t-x|) L_h(t) dt
 
@@ -14,7 +13,7 @@ under the peak pressure p (positive in compression) is
 
 and int phi_i u dx = h u with L = L_g for the hat phi_i of the pitch h. A half-plane under a net
 load has no displacement at infinity: only differences mean anything, hence the datum.
-(Johnson 1985, eq. 2.30 and 5.20-5.24, for strip and hat.)
+(Johnson 1985, eq. 5.20-5.24, for the hat.)
 
 The closed form of L_g is a difference of x^k ln|x| that cancels like x^-k. Away from the element it
 is summed from the even moments mu of the cubic spline that two hats make instead,
@@ -24,7 +23,6 @@ is summed from the even moments mu of the cubic spline that two hats make instea
 right to a few units of the last place near the element (3e-15 at whole offsets), then to rounding.
 """
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -39,15 +37,6 @@ _EVEN = 2.0 * np.arange(1, _TERMS + 1)
 _MOMENTS = (2.0 ** (_EVEN + 5.0) - 8.0) / (
     _EVEN * (_EVEN + 1.0) * (_EVEN + 2.0) * (_EVEN + 3.0) * (_EVEN + 4.0)
 )  # mu_2m / 2m
-
-
-def strip_displacement(offset: ArrayLike) -> np.ndarray:
-    """L_u at `offset` [pitches], any shape: a uniform pressure one pitch wide."""
-    x = np.abs(np.asarray(offset, dtype=float))
-    near = xlogy(x + 0.5, x + 0.5) - xlogy(x - 0.5, np.abs(x - 0.5))
-    apart = np.maximum(x, 1.0)
-    beyond = (apart + 0.5) * np.log1p(0.5 / apart) - (apart - 0.5) * np.log1p(-0.5 / apart)
-    return np.where(x < 1.0, near, np.log(apart) + beyond) - 1.0
 
 
 def hat_galerkin(offset: ArrayLike) -> np.ndarray:
@@ -78,12 +67,12 @@ def _closed(x: np.ndarray) -> np.ndarray:
     return total / 24.0 + np.log(unit) - 25.0 / 12.0
 
 
-def at_whole_offsets(kernel: Callable[..., np.ndarray], count: int) -> np.ndarray:
-    """`kernel`, one of this module, at 0, 1, … `count` - 1 pitches (count,); near ones cached."""
-    near = _near(kernel)[:count]
-    return np.concatenate((near, kernel(np.arange(len(near), count, dtype=float))))
+def at_whole_offsets(count: int) -> np.ndarray:
+    """L_g at 0, 1, … `count` - 1 pitches (count,); near ones cached."""
+    near = _near()[:count]
+    return np.concatenate((near, hat_galerkin(np.arange(len(near), count, dtype=float))))
 
 
 @cache
-def _near(kernel: Callable[..., np.ndarray]) -> np.ndarray:
-    return kernel(np.arange(_FAR))
+def _near() -> np.ndarray:
+    return hat_galerkin(np.arange(_FAR))

@@ -5,15 +5,12 @@ zero one pitch beyond the ends. An operator C maps them to the Galerkin averages
 displacement, (C p)_i = integral phi_i u_z dx [m^2], u_z [m] positive into the body. C is
 symmetric. The contact solver knows nothing else of the body.
 
-For comparison the half-plane comes with the uniform strips of Webster and Sayles too: p_i over its
-own pitch, the displacement at the middle of the strip, (C p)_i = h u_z(x_i).
-
     h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
     phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]"""
 
 import warnings
 from functools import cached_property
-from typing import Literal, Protocol, Self
+from typing import Protocol, Self
 
 import numpy as np
 import scipy.linalg
@@ -21,9 +18,7 @@ from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.grid import restricted
 from analytic.operators.convolution import Convolution, cholesky_solve
-from analytic.operators.elements import at_whole_offsets, hat_galerkin, strip_displacement
-
-Element = Literal["hat", "strip"]
+from analytic.operators.elements import at_whole_offsets
 
 RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
 FURTHEST = 500.0  # ln(L'/L) of a datum L': the largest that numbers of any unit of length hold
@@ -75,25 +70,17 @@ class HalfPlane(Convolution):
 
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
-    datum    L [m]; default the support (count + 1) h
-    element  "hat" (Galerkin) or "strip" (uniform, collocated)"""
+    datum    L [m]; default the support (count + 1) h"""
 
     def __init__(
-        self,
-        count: int,
-        pitch: float,
-        modulus: float,
-        datum: float | None = None,
-        element: Element = "hat",
+        self, count: int, pitch: float, modulus: float, datum: float | None = None
     ) -> None:
-        self.pitch, self.modulus, self.element = pitch, modulus, element
+        self.pitch, self.modulus = pitch, modulus
         self.datum = (count + 1) * pitch if datum is None else datum
-        self.arguments = modulus, self.datum, element
+        self.arguments = modulus, self.datum
         self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
-        kernel = hat_galerkin if element == "hat" else strip_displacement
-        log_integral = at_whole_offsets(kernel, count)
         scale = 2.0 * pitch**2 / (np.pi * modulus)
-        column = -scale * (log_integral + np.log(pitch / self.datum))
+        column = -scale * (at_whole_offsets(count) + np.log(pitch / self.datum))
         super().__init__(column, self._symbol)
 
     def on_base(self, compliance: float) -> "HalfPlane":
@@ -101,22 +88,18 @@ class HalfPlane(Convolution):
         That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST."""
         further = np.clip(0.5 * np.pi * self.modulus * compliance, 0.0, FURTHEST)
         datum = self.datum * float(np.exp(further))
-        return HalfPlane(self.count, self.pitch, self.modulus, datum, self.element)
+        return HalfPlane(self.count, self.pitch, self.modulus, datum)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
-        """2 / (E* |k|) seen through the elements, with the nearest aliases [m^2/Pa].
-        A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc. On
-        a datum beyond the support the mean sinks further, c h^2 a node of the ring (`on_base`):
+        """2 / (E* |k|) seen through the hats, with the nearest aliases [m^2/Pa].
+        A hat's transform is sinc^2 and stands twice (pressure and average). On a datum beyond the
+        support the mean sinks further, c h^2 a node of the ring (`on_base`):
         without it a search for pressures first moves off, and may end as rounding what is none."""
         c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         sine = np.sin(np.pi * c) / np.pi
-        first, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
-        if self.element == "hat":  # each (sine / |c + j|)^4 / |c + j|
-            seen = sum(
-                (sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in (first, lower, upper)
-            )
-        else:
-            seen = sine * (first**2 + lower**2 - upper**2)
+        aliases = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
+        # each (sine / |c + j|)^4 / |c + j|
+        seen = sum((sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in aliases)
         seen[cycles == 0.0] += 2.0 * self._further / cycles[1]
         return self.pitch**2 / (np.pi * self.modulus) * seen
 

@@ -1,6 +1,6 @@
-"""Convolution of loads on a line with one element's stresses, level by level.
+"""Convolution of loads on a line with one hat's stresses, level by level.
 
-Of the potential I of one element (`analytic.stress.potential`) Im I and z Re I' are even along the
+Of the potential I of one hat (`analytic.stress.potential`) Im I and z Re I' are even along the
 surface, Re I and z Im I' odd. The transform of a real sequence that is even plus odd about 0 has
 those of the two as real and imaginary part: two transforms a level give all four, two over i.
 
@@ -14,8 +14,8 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from analytic.numerics import for_each
-from analytic.stress.elements import unit_stress
-from analytic.stress.potential import FAR_TERMS, NEAREST_FAR, Element, element_potential
+from analytic.stress.elements import hat_at
+from analytic.stress.potential import FAR_TERMS, NEAREST_FAR, hat_potential
 
 _STARTS = [start for start, _ in FAR_TERMS]
 _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
@@ -23,7 +23,7 @@ _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 @dataclass(frozen=True)
 class StressGrid:
-    """Points at which stresses are wanted, and under which element."""
+    """Points at which stresses are wanted."""
 
     x: np.ndarray  # (m,) [m] columns
     z: np.ndarray  # (k,) [m] levels
@@ -32,7 +32,6 @@ class StressGrid:
     first: int  # column, counted in steps from the first node; every `stride`-th counts
     last: int
     stride: int
-    element: Element
 
 
 def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray) -> None:
@@ -49,7 +48,7 @@ def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray
     placed[place : place + len(source)] = source
     spectrum = rfft(placed) / fold
     turned = (spectrum, spectrum, 1j * spectrum, 1j * spectrum)
-    halves = half_line(grid.z / grid.pitch, reach, grid.subdivisions, grid.element)
+    halves = half_line(grid.z / grid.pitch, reach, grid.subdivisions)
     levels, step = parts.shape[1], max(1, _BLOCK // size)
 
     def fill(block: slice) -> None:
@@ -70,15 +69,13 @@ def _folded(spectra: np.ndarray, fold: int) -> np.ndarray:
     return up + down.conj()
 
 
-def half_line(
-    depths: np.ndarray, reach: int, subdivisions: int, element: Element
-) -> Callable[[slice], np.ndarray]:
-    """Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) of a unit element, by levels."""
+def half_line(depths: np.ndarray, reach: int, subdivisions: int) -> Callable[[slice], np.ndarray]:
+    """Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) of a unit hat, by levels."""
     x = np.arange(reach + 1) / subdivisions
     # Next to the element stand few points, with the slowest formulas: all such levels at once.
     shallow = int(np.searchsorted(depths, NEAREST_FAR))
     close = x[: NEAREST_FAR * subdivisions]
-    unit = unit_stress(*np.broadcast_arrays(close, depths[:shallow, None]), element)
+    unit = hat_at(*np.broadcast_arrays(close, depths[:shallow, None]))
     sx, sz, txz, sx_traction = unit.parts
     near = np.array([-0.5 * (sx_traction + txz), 0.5 * (sx + sz), 0.5 * (sx - sz), -txz])
 
@@ -94,20 +91,20 @@ def half_line(
             low = 0 if start in reached else start * subdivisions
             run = slice(low, int(min(end * subdivisions, reach + 1)))
             if run.start < run.stop:
-                element_potential(x[run], depths[first:last], element, terms, kernel[:, :, run])
+                hat_potential(x[run], depths[first:last], terms, kernel[:, :, run])
         if far:
             kernel[:, :far, : len(close)] = near[:, first:last]
             if first + far < last:
                 rest = depths[first + far : last]
                 terms = FAR_TERMS[0][1]
-                element_potential(close, rest, element, terms, kernel[:, far:, : len(close)])
+                hat_potential(close, rest, terms, kernel[:, far:, : len(close)])
         return kernel
 
     return halves
 
 
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
-    """Spectra of an element's stresses, those of txz under p and of sx under q over i, on a ring of
+    """Spectra of a hat's stresses, those of txz under p and of sx under q over i, on a ring of
     `size` >= 2 reach. From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on the right."""
     _, levels, count = halves.shape
     whole = np.empty((2, levels, size))
@@ -141,15 +138,12 @@ def on_grid(load: np.ndarray, subdivisions: int) -> tuple[np.ndarray, int]:
     return source, low * subdivisions
 
 
-def surface_load(
-    source: np.ndarray, places: np.ndarray, subdivisions: int, element: Element
-) -> np.ndarray:
-    """The elements' own load at points of the grid [Pa], a strip's end counting half to it."""
+def surface_load(source: np.ndarray, places: np.ndarray, subdivisions: int) -> np.ndarray:
+    """The hats' own load at points of the grid [Pa]."""
     near = np.arange(-subdivisions, subdivisions + 1) / subdivisions
-    shape = 1.0 - np.abs(near) if element == "hat" else 0.5 + 0.5 * np.sign(0.5 - np.abs(near))
     if len(source) == 0:
         return np.zeros(len(places))
-    spread = np.convolve(source, shape)
+    spread = np.convolve(source, 1.0 - np.abs(near))
     place = places + subdivisions
     inside = (place >= 0) & (place < len(spread))
     return np.where(inside, spread[np.where(inside, place, 0)], 0.0)

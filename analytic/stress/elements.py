@@ -1,14 +1,14 @@
-"""Stresses in a half-plane under one uniform strip or one hat of pressure and of traction.
+"""Stresses in a half-plane under one hat of pressure and of traction.
 
-Nomenclature: p pressure (positive in compression) and q traction (in +x) at the element's
-peak, both 1 here; r, t distance and angle from an end of the element, t = atan2(z, x - end).
+Nomenclature: p pressure (positive in compression) and q traction (in +x) at the hat's peak, both 1
+here; r, t distance and angle from a node of the hat, t = atan2(z, x - node).
 
 sz under q is txz under p, and txz under q is sx under p: four arrays hold what any friction needs.
 
 Written as in the sources, the formulas are sums of angles and logarithms that cancel: sz falls
-like z^3/x^4 while its terms do not fall at all. A strip's are recast here into terms of one sign:
-every component keeps its digits. A hat's are, close to it; away from it moments of its potential
-are right to rounding of the largest of the four.
+like z^3/x^4 while its terms do not fall at all. Close to the hat they are recast here so that every
+component keeps its digits; away from it moments of its potential are right to rounding of the
+largest of the four.
 """
 
 from dataclasses import dataclass, replace
@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
-from analytic.numerics import angle_minus_sine
-from analytic.stress.potential import NEAREST_FAR, Element, element_series, stresses
+from analytic.stress.potential import NEAREST_FAR, hat_series, stresses
 from analytic.stress_state import StressState
 
 
@@ -55,55 +54,14 @@ class FrictionStress:
         return replace(state, sx=state.sx + self.along) if self.along else state
 
 
-def strip_between(
-    left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray
-) -> FrictionStress:
-    """Stresses under unit p and q on |x| < a, from `left` = x + a, x, `right` = x - a, z >= 0 [m].
-
-    Each of them is known to rounding. On the surface the ends belong half to the strip, and sx
-    under q is infinite there. Of Bailey and Sayles 1991, eq. (1) and (2), with t1, t2 =
-    atan2(z, x - a), atan2(z, x + a), D = t1 - t2 and S = t1 + t2:
-
-        sz, sx = -(1/pi) {(D - sin D) + 2 sin D (sin^2, cos^2)(S/2)}, txz = -(1/pi) sin S sin D,
-    and with v = sinh ln(r2/r1) = 2 a x/(r1 r2), sx under q = -(2/pi) (asinh v - v z^2/(r1 r2)).
-    """
-    side, x = np.where(x < 0.0, -1.0, 1.0), np.abs(x)
-    left, right = np.where(side < 0.0, -right, left), np.where(side < 0.0, -left, right)
-    product = np.hypot(left, z) * np.hypot(right, z)
-    end = product == 0.0
-    product = np.where(end, 1.0, product)
-    angle = np.arctan2((left - right) * z, left * right + z**2)
-    sine = (left - right) * z / product
-    sine_sum = 2.0 * x * z / product
-    half = 0.5 * (np.arctan2(z, left) + np.arctan2(z, right))
-    upright = np.sin(half)
-    # Below the strip's centre S nears pi, where its cosine would lose what sin S still holds.
-    steep = half > 0.25 * np.pi
-    flat = np.where(steep, 0.5 * sine_sum / np.where(steep, upright, 1.0), np.cos(half))
-    rest = np.where(end, 0.5 * np.pi, angle_minus_sine(angle))
-    return FrictionStress(
-        normal=StressState(
-            sx=-(rest + 2.0 * sine * flat**2) / np.pi,
-            sz=-(rest + 2.0 * sine * upright**2) / np.pi,
-            txz=-side * sine_sum * sine / np.pi,
-        ),
-        traction_sx=-side * np.where(end, np.inf, _strip_stretch(left, x, right, z, product)),
-    )
-
-
 def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     """Stresses under unit p and q at 0 that fall linearly to zero at -1 and 1; x, z in pitches."""
     parts = np.empty((4, *x.shape))
     near = np.hypot(x, z) < NEAREST_FAR
     parts[:, near] = _hat_closed(x[near], z[near])
-    potential, slope = element_series(x[~near] + 1j * z[~near], "hat")
+    potential, slope = hat_series(x[~near] + 1j * z[~near])
     parts[:, ~near] = stresses(potential, z[~near] * slope)
     return FrictionStress.of(parts)
-
-
-def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStress:
-    """Stresses of a unit element at 0, by x and z in pitches."""
-    return hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
 
 
 def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
@@ -146,25 +104,6 @@ def _shortfall(y: np.ndarray, z: np.ndarray) -> np.ndarray:
     return np.where(small, z * series, y * np.arctan2(z, y) - z)
 
 
-def _strip_stretch(
-    left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray, product: np.ndarray
-) -> np.ndarray:
-    """(2/pi) (asinh v - v z^2/(r1 r2)), v = 2 a x/(r1 r2) >= 0, for `product` = r1 r2.
-    Deep below the strip both terms tend to v: there v - asinh v is summed as a series, and
-    1 - z^2/(r1 r2) formed from (r1 r2)^2 - z^4 = (x^2 - a^2)^2 + 2 z^2 (x^2 + a^2)."""
-    v = (left - right) * x / product
-    fraction = z**2 / product
-    square = np.minimum(v, 0.1) ** 2
-    series, coefficients = np.zeros_like(square), [1.0]
-    for n in range(1, 9):
-        coefficients.append(-coefficients[-1] * (2 * n - 1) / (2 * n))
-    for n in range(8, 0, -1):
-        series = square * (series + coefficients[n] / (2 * n + 1))
-    fall = (left * right) ** 2 + z**2 * (left**2 + right**2)
-    deep = v * (series + fall / (product * (product + z**2)))
-    return 2.0 / np.pi * np.where(v < 0.1, deep, np.arcsinh(v) - v * fraction)
-
-
 _PITCH_TOLERANCE = 1e-6  # of the pitch: how far a node may stand from its point of the grid
 
 
@@ -192,9 +131,3 @@ def from_nearest(
     whole = np.rint((nodes - nodes[0]) / pitch).astype(int)
     nearest = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
     return whole, whole[nearest], (x - nodes[nearest]) / pitch
-
-
-def check_element(element: str) -> None:
-    """ValueError unless `element` is "hat" or "strip"."""
-    if element not in ("hat", "strip"):
-        raise ValueError(f'element must be "hat" or "strip", not {element!r}')

@@ -11,8 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from analytic.stress.convolution import StressGrid, convolve, on_grid, surface_load
-from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
-from analytic.stress.potential import Element
+from analytic.stress.elements import FrictionStress, uniform_pitch
 from analytic.stress_state import StressState
 
 
@@ -44,7 +43,6 @@ def friction_field(
     x_range: tuple[float, float],
     z: np.ndarray,
     subdivisions: int = 1,
-    element: Element = "hat",
     stride: int = 1,
 ) -> FrictionField:
     """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
@@ -54,18 +52,17 @@ def friction_field(
     nodes' extent; every `stride`-th of its points counts. On z = 0, sz = -p and txz = -q exactly.
     Each level is right to rounding of the largest stress at its depth.
 
-    Raises ValueError for input out of these bounds, for a window without a grid point, and for
-    strips whose ends, where sx under q is infinite, fall on points of the surface.
+    Raises ValueError for input out of these bounds, and for a window without a grid point.
     """
     load = np.array(pressure, dtype=float)
-    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, stride)
+    grid = _grid(x_nodes, load, x_range, z, subdivisions, stride)
     parts = np.zeros((4, len(grid.z), len(grid.x)))
     source, start = on_grid(load, grid.subdivisions)
     if source.size:
         convolve(source, start, grid, parts)
     if grid.z[0] == 0.0:
         places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
-        parts[:2, 0] = -surface_load(source, places, grid.subdivisions, grid.element)
+        parts[:2, 0] = -surface_load(source, places, grid.subdivisions)
     return FrictionField(grid.x, grid.z, FrictionStress.of(parts))
 
 
@@ -75,11 +72,9 @@ def _grid(
     x_range: tuple[float, float],
     z: np.ndarray,
     subdivisions: int,
-    element: Element,
     stride: int,
 ) -> StressGrid:
     pitch = uniform_pitch(x_nodes, load)
-    check_element(element)
     z = np.asarray(z, dtype=float)
     if z.ndim != 1 or len(z) == 0 or not np.all(np.isfinite(z)):
         raise ValueError("z must be one-dimensional, finite and not empty")
@@ -88,11 +83,6 @@ def _grid(
     for name, number in (("subdivisions", subdivisions), ("stride", stride)):
         if number < 1 or number != int(number):
             raise ValueError(f"{name} must be a whole number from 1, not {number}")
-    if element == "strip" and z[0] == 0.0 and subdivisions % 2 == 0:
-        raise ValueError(
-            "uniform strips have no finite sx at their ends on the surface: take z > 0, "
-            "an odd number of subdivisions, or hats"
-        )
     step = pitch / subdivisions
     low, high = ((bound - x_nodes[0]) / step for bound in x_range)
     first, last = int(np.ceil(low - 1e-6)), int(np.floor(high + 1e-6))
@@ -101,7 +91,7 @@ def _grid(
             f"no point of the grid of {step:g} m lies between {x_range[0]:g} and {x_range[1]:g} m"
         )
     x = x_nodes[0] + np.arange(first, last + 1, stride) * step
-    return StressGrid(x, z, pitch, subdivisions, first, last, stride, element)
+    return StressGrid(x, z, pitch, subdivisions, first, last, stride)
 
 
 def graded_depths(depth: float, count: int, first: float) -> np.ndarray:

@@ -7,7 +7,6 @@ import numpy as np
 
 from analytic.stress.field import StressField
 from analytic.stress.points import friction_stress_at
-from analytic.stress.potential import Element
 from analytic.stress_state import StressState
 
 NEAR = 0.5  # of the largest value: cells whose own are below it are not followed off the grid
@@ -27,7 +26,6 @@ def stress_maxima(
     pressure: np.ndarray,
     fields: Mapping[float, StressField],
     poissons_ratio: float,
-    element: Element = "hat",
     *,
     beside: Callable[[np.ndarray, np.ndarray, np.ndarray], StressState] | None = None,
     cells: Sequence[float] = (),
@@ -83,7 +81,7 @@ def stress_maxima(
         """The quantity of each owner (k,) at its points (k, 9, 2)."""
         x, z = place[..., 0], place[..., 1]
         friction = of_search[owner // count, None]
-        stress = friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
+        stress = friction_stress_at(x_nodes, pressure, x, z).at(friction)
         stress = stress if beside is None else stress.plus(1.0, beside(friction, x, z))
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities.values()):

@@ -20,12 +20,9 @@ again and again share their matrices (Greengard and Rokhlin 1987, lemmas 2.3 to 
 
 from collections.abc import Iterable
 from functools import cache
-from typing import Literal
 
 import numpy as np
 from scipy.special import comb
-
-Element = Literal["hat", "strip"]
 
 # Distances [pitches] from which that many terms of even moments leave less than 1e-17.
 NEAREST_FAR = 4
@@ -33,20 +30,14 @@ _BLOCK = 2**13  # points at a time, whose arrays stay in the cache
 FAR_TERMS = ((4, 14), (16, 7), (128, 4), (512, 3))
 
 
-def element_moments(element: Element, count: int) -> np.ndarray:
-    """M_0 … of unit hat or strip about its own centre (count,), in pitches: odd ones vanish."""
+def hat_moments(count: int) -> np.ndarray:
+    """M_0 … of a unit hat about its own centre (count,), in pitches: odd ones vanish."""
     order = np.arange(count)
-    if element == "hat":
-        even = 2.0 / ((order + 1.0) * (order + 2.0))
-    else:
-        even = 0.5**order / (order + 1.0)
-    return np.where(order % 2 == 0, even, 0.0)
+    return np.where(order % 2 == 0, 2.0 / ((order + 1.0) * (order + 2.0)), 0.0)
 
 
-def element_potential(
-    x: np.ndarray, z: np.ndarray, element: Element, terms: int, out: np.ndarray
-) -> None:
-    """Fill `out` with Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit element at 0.
+def hat_potential(x: np.ndarray, z: np.ndarray, terms: int, out: np.ndarray) -> None:
+    """Fill `out` with Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit hat at 0.
 
     On x (columns,) and z (levels,) in pitches; from the first `terms` > 2 even moments. With
     v = 1/w, s = v^2, m = 2 Re s and n = |s|^2 any power obeys s^2 = m s - n, so that the sums of
@@ -56,7 +47,7 @@ def element_potential(
 
     with p0 … d1 real: three times fewer products than with complex powers.
     """
-    value = element_moments(element, 2 * terms)[::2] / np.pi
+    value = hat_moments(2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
     step = max(1, _BLOCK // len(x))
     for start in range(0, len(z), step):
@@ -152,10 +143,10 @@ def outer_to_inner(boxes: int) -> np.ndarray:
 
 
 @cache
-def nodes_to_outer(count: int, element: Element) -> np.ndarray:
+def nodes_to_outer(count: int) -> np.ndarray:
     """Values at the `count` nodes of a box to its outer coefficients (ORDER, count), in pitches."""
     place = (np.arange(count) - 0.5 * (count - 1)) / (0.5 * count)
-    moments = element_moments(element, ORDER) * (0.5 * count) ** -_K.astype(float)
+    moments = hat_moments(ORDER) * (0.5 * count) ** -_K.astype(float)
     powers = place[:, None] ** _K
     return np.array([powers[:, k::-1] @ (comb(k, _K[: k + 1]) * moments[: k + 1]) for k in _K])
 
@@ -194,15 +185,15 @@ def _power(base: float, exponent: np.ndarray) -> np.ndarray:
     return np.where(exponent >= 0, base ** np.maximum(exponent, 0), 0.0)
 
 
-def element_series(w: np.ndarray, element: Element) -> tuple[np.ndarray, np.ndarray]:
-    """I and I' (n,) of a unit element at 0, at w (n,) in pitches, |w| >= NEAREST_FAR."""
+def hat_series(w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """I and I' (n,) of a unit hat at 0, at w (n,) in pitches, |w| >= NEAREST_FAR."""
     value, slope = np.empty_like(w), np.empty_like(w)
     tier = np.digitize(np.abs(w), [start for start, _ in FAR_TERMS[1:]])
     for index, (_, terms) in enumerate(FAR_TERMS):
         here = tier == index
         if here.any():
             v = 1.0 / w[here]
-            moments = element_moments(element, 2 * terms)[::2] / np.pi
+            moments = hat_moments(2 * terms)[::2] / np.pi
             total, change = polynomial(moments[::-1], v * v)
             value[here], slope[here] = v * total, -v * v * (total + 2.0 * v * v * change)
     return value, slope

@@ -20,10 +20,9 @@ from itertools import pairwise
 import numpy as np
 
 from analytic.numerics import for_each
-from analytic.stress.elements import from_nearest, unit_stress
+from analytic.stress.elements import from_nearest, hat_at
 from analytic.stress.potential import (
     ORDER,
-    Element,
     inner_to_child,
     nodes_to_outer,
     outer_to_inner,
@@ -50,15 +49,15 @@ class BoxLevel:
     inner: np.ndarray  # (ORDER, b)
 
 
-def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
+def box_levels(load: np.ndarray, boxes: list[np.ndarray]) -> list[BoxLevel]:
     """Expansions on each level of boxes, the finest first; `boxes` of the points on each. Those of
     all boxes, which the next points may take again, where that is not much more work."""
     line, points = np.asarray(load, dtype=float).tobytes(), sum(map(len, boxes))
     if len(load) <= LEAF * min(_PER_POINT * points, _BOXES):
-        everywhere = _everywhere(line, element)
+        everywhere = _everywhere(line)
         if all(map(_holds, everywhere, boxes)) and len(boxes) <= len(everywhere):
             return everywhere
-    return _levels(line, element, boxes)
+    return _levels(line, boxes)
 
 
 def _holds(level: BoxLevel, box: np.ndarray) -> bool:
@@ -66,15 +65,15 @@ def _holds(level: BoxLevel, box: np.ndarray) -> bool:
 
 
 @lru_cache(maxsize=32)
-def _everywhere(load: bytes, element: Element) -> list[BoxLevel]:
+def _everywhere(load: bytes) -> list[BoxLevel]:
     """Levels with all boxes over a load, and their neighbours."""
-    count = _outer_levels(load, element)[0].shape[1]
-    return _levels(load, element, [np.arange(-NEIGHBOURS, count + NEIGHBOURS)])
+    count = _outer_levels(load)[0].shape[1]
+    return _levels(load, [np.arange(-NEIGHBOURS, count + NEIGHBOURS)])
 
 
-def _levels(load: bytes, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
+def _levels(load: bytes, boxes: list[np.ndarray]) -> list[BoxLevel]:
     """Levels with the boxes that are asked for, and their ancestors."""
-    outer = list(_outer_levels(load, element))
+    outer = list(_outer_levels(load))
     while len(outer) < len(boxes):
         outer.append(_parents(outer[-1]))
     ids = []
@@ -99,12 +98,12 @@ def _levels(load: bytes, element: Element, boxes: list[np.ndarray]) -> list[BoxL
 
 
 @lru_cache(maxsize=4)
-def _outer_levels(load: bytes, element: Element) -> tuple[np.ndarray, ...]:
+def _outer_levels(load: bytes) -> tuple[np.ndarray, ...]:
     """Outer coefficients (ORDER, boxes) of a load's boxes on each level up to the one that holds
     all of it; searches ask for the same load again and again."""
     nodal = np.frombuffer(load)
     padded = np.pad(nodal, (0, -len(nodal) % LEAF)).reshape(-1, LEAF)
-    levels = [nodes_to_outer(LEAF, element) @ padded.T]
+    levels = [nodes_to_outer(LEAF) @ padded.T]
     while levels[-1].shape[1] > 1:
         levels.append(_parents(levels[-1]))
     return tuple(levels)
@@ -156,16 +155,15 @@ def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarra
 
 @dataclass(frozen=True)
 class LoadedLine:
-    """Elements with nodes (n,) [m], a uniform `pitch` [m] apart, under `load` (n,) [Pa]."""
+    """Hats with nodes (n,) [m], a uniform `pitch` [m] apart, under `load` (n,) [Pa]."""
 
     nodes: np.ndarray
     load: np.ndarray
     pitch: float
-    element: Element
 
     def part(self, some: slice | np.ndarray) -> "LoadedLine":
         """Some of the elements."""
-        return LoadedLine(self.nodes[some], self.load[some], self.pitch, self.element)
+        return LoadedLine(self.nodes[some], self.load[some], self.pitch)
 
 
 def near_stress(
@@ -179,14 +177,10 @@ def near_stress(
     load = np.where(loaded, line.load[np.where(loaded, index, 0)], 0.0)
     load[:, [0, -1]] = 0.0
     offset = rest[:, None] + (nearest[:, None] - index[which])
-    z = z[:, None]
-    if line.element == "strip":
-        unit = unit_stress(offset, np.broadcast_to(z, offset.shape), "strip")
-        return np.array([np.einsum("ij,ij->i", row, load[which]) for row in unit.parts])
     bend = np.zeros_like(load)
     bend[:, 1:-1] = load[:, 2:] - 2.0 * load[:, 1:-1] + load[:, :-2]
     bend[:, [0, -1]] = load[:, [1, -2]]
-    return _bends(offset, z, load[which], bend[which])
+    return _bends(offset, z[:, None], load[which], bend[which])
 
 
 def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> np.ndarray:
@@ -225,7 +219,7 @@ def tree_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     parts, far = np.empty((4, len(x))), np.hypot(along - half, down) >= _FAR * half
     if far.any():
         u = (along[far] - half + 1j * down[far]) / half
-        (*_, root), v = box_levels(line.load, line.element, []), 1.0 / u
+        (*_, root), v = box_levels(line.load, []), 1.0 / u
         value, slope = polynomial(root.outer[::-1, 0], v)
         potential, slope = v * value, -v * v * (value + v * slope)
         parts[:, far] = stresses(potential, u.imag * slope) / (np.pi * half)
@@ -241,7 +235,7 @@ def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.nda
     box = np.floor(along / (LEAF * 2.0**level)).astype(int)
     order = np.lexsort((box, level))
     runs = list(pairwise(np.searchsorted(level[order], np.arange(level.max() + 2))))
-    levels = box_levels(line.load, line.element, [box[order[a:b]] for a, b in runs])
+    levels = box_levels(line.load, [box[order[a:b]] for a, b in runs])
     parts = np.empty((4, len(down)))
 
     def add_up(piece: slice) -> None:
@@ -295,7 +289,7 @@ def direct_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     def add_up(here: slice) -> None:
         offset = rest[here, None] + (nearest[here, None] - whole)
         depth = np.broadcast_to(down[here, None], offset.shape)
-        unit = unit_stress(offset, depth, line.element)
+        unit = hat_at(offset, depth)
         for row, values in enumerate(unit.parts):
             parts[row, here] = values @ line.load
 

@@ -14,8 +14,8 @@ from dataclasses import astuple, dataclass
 from functools import lru_cache
 
 import numpy as np
-from periodic_strips import PeriodicStrips
 from scipy.fft import irfft, rfft
+from strips import PeriodicStrips, StripHalfPlane
 
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
@@ -80,7 +80,5 @@ def displacements(pressure: np.ndarray, element: str, periodic: bool) -> np.ndar
 @lru_cache(maxsize=6)
 def operator_of(count: int, element: str, periodic: bool) -> ModelOperator:
     """Operator of a line of unit length, E* = 1."""
-    if not periodic:
-        return HalfPlane(count, 1.0 / count, 1.0, element=element)
-    kind = PeriodicHalfPlane if element == "hat" else PeriodicStrips
-    return kind(count, 1.0 / count, 1.0)
+    hats, strips = (PeriodicHalfPlane, PeriodicStrips) if periodic else (HalfPlane, StripHalfPlane)
+    return (hats if element == "hat" else strips)(count, 1.0 / count, 1.0)

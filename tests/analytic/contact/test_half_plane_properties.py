@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from periodic_strips import PeriodicStrips
+from strips import PeriodicStrips, StripHalfPlane
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
@@ -41,10 +41,11 @@ class Contact:
 
     @property
     def operator(self) -> HalfPlane | PeriodicHalfPlane:
-        grid = len(self.gap), self.pitch, self.modulus
-        if not self.periodic:
-            return HalfPlane(*grid, element=self.element)
-        return (PeriodicHalfPlane if self.element == "hat" else PeriodicStrips)(*grid)
+        hats, strips = (
+            (PeriodicHalfPlane, PeriodicStrips) if self.periodic else (HalfPlane, StripHalfPlane)
+        )
+        kind = hats if self.element == "hat" else strips
+        return kind(len(self.gap), self.pitch, self.modulus)
 
     def solved(self) -> ContactSolution:
         weights = np.full(len(self.gap), self.pitch)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 from scipy.optimize import nnls
+from strips import StripHalfPlane
 
 from analytic.contact import exchange
 from analytic.contact.equilibrium import Constraints
@@ -37,7 +38,7 @@ def test_uniform_strips_converge_to_hertz():
     for elements in (120, 240, 480, 960):
         reach = 1.5 * HERTZ.half_width
         grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
-        operator = HalfPlane(grid.count, grid.pitch, MODULUS, element="strip")
+        operator = StripHalfPlane(grid.count, grid.pitch, MODULUS)
         gap = grid.pitch * roller_gap(RADIUS)(grid.x)
         solution = solve_contact(operator, gap, grid.weights, Constraints(load=LOAD))
         assert solution.converged

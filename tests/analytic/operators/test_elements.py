@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from exact_stresses import hat_displacement
 from scenes import reference
+from strips import strip_displacement
 
-from analytic.operators.elements import hat_galerkin, strip_displacement
+from analytic.operators.elements import hat_galerkin
 
 
 def rows(name: str, key: str) -> tuple[np.ndarray, np.ndarray]:

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from hats import of_narrow_hats
-from periodic_strips import PeriodicStrips
 from scenes import reference
 from scipy.linalg import circulant
 from scipy.special import zeta
+from strips import PeriodicStrips, StripHalfPlane
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
@@ -82,8 +82,8 @@ def test_symbol_is_the_sum_over_aliases():
 def test_coefficients_are_those_of_the_half_plane_and_all_its_images(kind, count):
     """Loads of zero sum: the images of elements i and 0 differ like 1/j^2 and 1/j^4."""
     images = 4000
-    element = "hat" if kind is PeriodicHalfPlane else "strip"
-    free = HalfPlane(count * (images + 1), PITCH, MODULUS, element=element).column
+    alone = HalfPlane if kind is PeriodicHalfPlane else StripHalfPlane
+    free = alone(count * (images + 1), PITCH, MODULUS).column
     offset = np.abs(np.arange(count)[:, None] + count * np.arange(-images, images + 1))
     padded = free[np.minimum(offset, len(free) - 1)]
     summed = np.sum(padded - padded[:1], axis=1)

@@ -6,9 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from exact_stresses import hat_stress, strip_stress
+from exact_stresses import hat_stress
 from scenes import reference
 from scipy.integrate import trapezoid
+from strips import strip_stress
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.stress.points import friction_stress_at, stress_at
@@ -133,12 +134,9 @@ PRESSURE = np.maximum(RNG.standard_normal(40), 0.0) * 1e9
 X, Z = RNG.uniform(-0.1, 0.15, 60), RNG.uniform(0.0, 0.05, 60)
 
 
-@pytest.mark.parametrize(
-    ("element", "unit", "size"), [("hat", hat_stress, PITCH), ("strip", strip_stress, 0.5 * PITCH)]
-)
-def test_sum_of_the_elements(element, unit, size):
-    total = stress_at(NODES, PRESSURE, 0.3, X, Z, element)
-    states = [unit(X - node, Z, size).at(0.3) for node in NODES]
+def test_sum_of_the_elements():
+    total = stress_at(NODES, PRESSURE, 0.3, X, Z)
+    states = [hat_stress(X - node, Z, PITCH).at(0.3) for node in NODES]
     expected = sum(p * stress.parts for p, stress in zip(PRESSURE, states, strict=True))
     assert np.abs(total.parts - expected).max() < 1e-14 * PRESSURE.max()
 
@@ -166,20 +164,19 @@ def test_many_elements_in_blocks_as_in_one():
 
 
 @pytest.mark.parametrize(
-    ("nodes", "pressure", "z", "element", "said"),
+    ("nodes", "pressure", "z", "said"),
     [
-        (NODES**2, PRESSURE, 1.0, "hat", "uniform and ascending"),
-        (NODES[::-1], PRESSURE, 1.0, "hat", "uniform and ascending"),
-        (NODES, PRESSURE[1:], 1.0, "hat", "equal length"),
-        (NODES[:1], PRESSURE[:1], 1.0, "hat", "at least 2 nodes"),
-        (NODES, np.where(PRESSURE > 0.0, np.nan, 0.0), 1.0, "hat", "finite"),
-        (NODES, PRESSURE, -1.0, "hat", "z must not be negative"),
-        (NODES, PRESSURE, 1.0, "spline", '"hat" or "strip"'),
+        (NODES**2, PRESSURE, 1.0, "uniform and ascending"),
+        (NODES[::-1], PRESSURE, 1.0, "uniform and ascending"),
+        (NODES, PRESSURE[1:], 1.0, "equal length"),
+        (NODES[:1], PRESSURE[:1], 1.0, "at least 2 nodes"),
+        (NODES, np.where(PRESSURE > 0.0, np.nan, 0.0), 1.0, "finite"),
+        (NODES, PRESSURE, -1.0, "z must not be negative"),
     ],
 )
-def test_what_makes_no_stress_is_refused(nodes, pressure, z, element, said):
+def test_what_makes_no_stress_is_refused(nodes, pressure, z, said):
     with pytest.raises(ValueError, match=said):
-        stress_at(nodes, pressure, 0.0, 0.0, z, element)
+        stress_at(nodes, pressure, 0.0, 0.0, z)
 
 
 UNIT = hertz_from_peak_pressure(1.0, 1.0, 2.0)
@@ -208,9 +205,7 @@ def line(rng: np.random.Generator, count: int, signs: bool) -> tuple[np.ndarray,
     return nodes, rng.uniform(-1.0 if signs else 0.0, 1.0, count)
 
 
-def points(
-    rng: np.random.Generator, nodes: np.ndarray, lowest: float
-) -> tuple[np.ndarray, np.ndarray]:
+def points(rng: np.random.Generator, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points on nodes and between them, at edges, on the surface and at depths, inside and out.
 
     x - node is a whole number of 2^-20 pitches, so that no method has a rounding to resolve.
@@ -222,7 +217,7 @@ def points(
         np.repeat(nodes[::9] + 0.5 * PITCH, 2),
         rng.uniform(nodes[0] - 3.0 * PITCH, nodes[-1] + 3.0 * PITCH, 400),
     ]
-    ends = np.tile([lowest, 1e-12], len(nodes[::9])) * PITCH
+    ends = np.tile([0.0, 1e-12], len(nodes[::9])) * PITCH
     z = [
         10.0 ** rng.uniform(-14.0, 0.0, 400) * width,
         ends,
@@ -234,20 +229,18 @@ def points(
 
 
 @pytest.mark.parametrize("count", [64, 65, 700])
-@pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("signs", [False, True])
-def test_tree_equals_direct_sum(rng, count, element, signs):
+def test_tree_equals_direct_sum(rng, count, signs):
     """White noise: neighbours differ by as much as they are, which is the worst for the sums."""
     nodes, load = line(rng, count, signs)
-    x, z = points(rng, nodes, 0.0 if element == "hat" else 1e-13)
-    direct = direct_stress(LoadedLine(nodes, load, PITCH, element), x, z)
-    tree = tree_stress(LoadedLine(nodes, load, PITCH, element), x, z)
+    x, z = points(rng, nodes)
+    direct = direct_stress(LoadedLine(nodes, load, PITCH), x, z)
+    tree = tree_stress(LoadedLine(nodes, load, PITCH), x, z)
     assert np.abs(tree - direct).max() < 1e-13 * np.abs(direct).max()
 
 
 @pytest.mark.parametrize("origin", [0.0, 0.05, -3.3])
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_nodes_that_binary_numbers_do_not_hit(origin, element):
+def test_nodes_that_binary_numbers_do_not_hit(origin):
     """A pitch of 1 um far from the origin, against whole numbers, for which all is exact.
 
     At nodes as they are given nothing is lost; between them what rounding moves the point by.
@@ -258,13 +251,11 @@ def test_nodes_that_binary_numbers_do_not_hit(origin, element):
     nodes, load = origin + whole * pitch, rng.uniform(0.0, 1.0, count)
     at_nodes = whole[::27]
     along = np.concatenate([at_nodes, rng.uniform(-9.0, count + 8.0, 75)])
-    down = np.concatenate([np.full(len(at_nodes), 1e-3), rng.uniform(0.1, 40.0, 75)])
-    if element == "hat":
-        down[: len(at_nodes)] = 0.0
+    down = np.concatenate([np.zeros(len(at_nodes)), rng.uniform(0.1, 40.0, 75)])
     x = np.concatenate([nodes[at_nodes], origin + along[len(at_nodes) :] * pitch])
-    direct = direct_stress(LoadedLine(nodes, load, pitch, element), x, down * pitch)
-    tree = tree_stress(LoadedLine(nodes, load, pitch, element), x, down * pitch)
-    ideal = direct_stress(LoadedLine(whole.astype(float), load, 1.0, element), along, down)
+    direct = direct_stress(LoadedLine(nodes, load, pitch), x, down * pitch)
+    tree = tree_stress(LoadedLine(nodes, load, pitch), x, down * pitch)
+    ideal = direct_stress(LoadedLine(whole.astype(float), load, 1.0), along, down)
     assert np.abs(tree - direct).max() < 1e-13
     error = np.abs(direct - ideal)
     assert error[:, : len(at_nodes)].max() < 1e-14
@@ -272,8 +263,7 @@ def test_nodes_that_binary_numbers_do_not_hit(origin, element):
     assert error[:, len(at_nodes) :].max() < 1e-13 + 2.0 * rounding
 
 
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_far_from_all_load(rng, element):
+def test_far_from_all_load(rng):
     """From one width beyond the load to a million of them, shallow and deep: to rounding of the
     largest of the four stresses."""
     nodes, load = line(rng, 300, signs=False)
@@ -283,8 +273,8 @@ def test_far_from_all_load(rng, element):
     )
     x = 0.5 * (nodes[0] + nodes[-1]) + (distance * np.cos(angle)).ravel()
     z = (distance * np.sin(angle)).ravel()
-    direct = direct_stress(LoadedLine(nodes, load, PITCH, element), x, z)
-    tree = tree_stress(LoadedLine(nodes, load, PITCH, element), x, z)
+    direct = direct_stress(LoadedLine(nodes, load, PITCH), x, z)
+    tree = tree_stress(LoadedLine(nodes, load, PITCH), x, z)
     assert np.all(np.abs(tree - direct) < 1e-12 * np.abs(direct).max(axis=0))
 
 
@@ -303,8 +293,8 @@ def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
     nodes, load = line(rng, 900, signs=False)
     load[:90], load[400:700], load[850:] = 0.0, 0.0, 0.0
     x, z = rng.uniform(-1.0, 2.0, 500), rng.uniform(0.0, 0.3, 500)
-    stress = tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)
-    assert np.abs(stress - direct_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)).max() < 1e-13
+    stress = tree_stress(LoadedLine(nodes, load, PITCH), x, z)
+    assert np.abs(stress - direct_stress(LoadedLine(nodes, load, PITCH), x, z)).max() < 1e-13
     alone = friction_stress_at(nodes, np.zeros(900), x, z)
     assert not np.any(alone.normal.sx) and not np.any(alone.traction_sx)
 
@@ -315,5 +305,5 @@ def test_threads_change_nothing(rng, monkeypatch):
     stress = []
     for threads in ("1", "3"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        stress.append(tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z))
+        stress.append(tree_stress(LoadedLine(nodes, load, PITCH), x, z))
     np.testing.assert_array_equal(*stress)

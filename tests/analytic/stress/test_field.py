@@ -7,12 +7,15 @@ uniform strips it is as accurate on the axes of the elements only; between them 
 first order in h, and with friction it grows without bound towards the strips' ends.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
+from strips import stress_of_strips
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.stress.field import friction_field, graded_depths
-from analytic.stress.points import friction_stress_at, stress_at
+from analytic.stress.points import stress_at
 
 PITCH = 2.0**-7
 NODES = (np.arange(150) - 60.0) * PITCH
@@ -20,10 +23,10 @@ PRESSURE = np.maximum(np.random.default_rng(2).standard_normal(150) + 0.3, 0.0)
 LEVELS = np.array([0.0, 1e-12, 1e-4, 2e-3, 0.03, 0.4, 5.0])
 
 
-def worst(field, friction: float, nodes, pressure, element: str) -> float:
+def worst(field, friction: float, nodes, pressure) -> float:
     """Largest difference to the direct sum, relative to the largest stress or pressure."""
     x, z = np.meshgrid(field.x, field.z)
-    direct = friction_stress_at(nodes, pressure, x, z, element).at(friction).parts
+    direct = stress_at(nodes, pressure, friction, x, z).parts
     apart = np.abs(field.at(friction).stress.parts - direct).max()
     return apart / max(np.abs(direct).max(), np.abs(pressure).max())
 
@@ -49,20 +52,17 @@ def worst(field, friction: float, nodes, pressure, element: str) -> float:
         ((-9.0, -0.469), 1),
     ],
 )
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_field_equals_direct_sum(x_range, subdivisions, element):
-    """Strips are left out where one ends on the surface."""
-    levels = LEVELS[1:] if element == "strip" and subdivisions % 2 == 0 else LEVELS
-    field = friction_field(NODES, PRESSURE, x_range, levels, subdivisions, element)
+def test_field_equals_direct_sum(x_range, subdivisions):
+    field = friction_field(NODES, PRESSURE, x_range, LEVELS, subdivisions)
     for friction in (0.0, 0.35):
-        assert worst(field, friction, NODES, PRESSURE, element) < 2e-14
+        assert worst(field, friction, NODES, PRESSURE) < 2e-14
 
 
 def test_field_on_a_grid_of_rounded_places():
     """Places of the grid are rounded to 1e-14 of a pitch; near the surface that shows as 1e-13."""
     nodes = 0.7 + np.arange(150) * 1e-2
     field = friction_field(nodes, PRESSURE, (0.0, 3.0), LEVELS, 2)
-    assert worst(field, 0.35, nodes, PRESSURE, "hat") < 1e-12
+    assert worst(field, 0.35, nodes, PRESSURE) < 1e-12
 
 
 def test_grid_holds_the_nodes_and_stays_in_the_window():
@@ -89,13 +89,6 @@ def test_surface_carries_pressure_and_traction_exactly():
     np.testing.assert_array_equal(without.stress.txz[0], 0.0)
 
 
-def test_strips_on_the_surface_need_points_off_their_ends():
-    with pytest.raises(ValueError, match="no finite sx"):
-        friction_field(NODES, PRESSURE, (-0.4, 0.6), LEVELS, 2, "strip").at(0.1)
-    field = friction_field(NODES, PRESSURE, (NODES[0], NODES[-1]), LEVELS, 1, "strip").at(0.1)
-    np.testing.assert_array_equal(field.stress.sz[0], -PRESSURE)
-
-
 def test_no_pressure_no_stress():
     field = friction_field(NODES, np.zeros(150), (-1.0, 1.0), LEVELS).at(0.2)
     assert not np.any(field.stress.sx) and not np.any(field.stress.txz)
@@ -115,11 +108,10 @@ def test_deep_level_far_from_the_load_keeps_its_digits():
         ({"z": np.array([-1.0, 0.0])}, "ascend strictly from z >= 0"),
         ({"subdivisions": 0}, "whole number from 1"),
         ({"x_range": (0.001, 0.002)}, "no point of the grid"),
-        ({"element": "cubic"}, '"hat" or "strip"'),
     ],
 )
 def test_what_makes_no_field_is_refused(changed, said):
-    options = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1, "element": "hat"} | changed
+    options = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1} | changed
     with pytest.raises(ValueError, match=said):
         friction_field(NODES, PRESSURE, **options).at(0.0)
 
@@ -157,11 +149,13 @@ DEPTHS = np.array([0.01, 0.03, 0.1, 0.3, 1.0, 3.0])  # pitches
 ANYWHERE = np.random.default_rng(11).uniform(-0.9, 0.9, 300)
 
 
-def errors(count: int, friction: float, element: str, x: np.ndarray, depths=DEPTHS) -> np.ndarray:
+def errors(
+    count: int, friction: float, stress_of: Callable, x: np.ndarray, depths=DEPTHS
+) -> np.ndarray:
     """Largest error of sx, sz and txz on each depth [p0], `count` pitches a half-width."""
     nodes = np.arange(-count, count + 1) / count
     x, z = np.meshgrid(x, np.asarray(depths) / count)
-    stress = stress_at(nodes, UNIT.pressure(nodes), friction, x, z, element)
+    stress = stress_of(nodes, UNIT.pressure(nodes), friction, x, z)
     exact = hertz_stress(UNIT, x, z, friction)
     return np.abs(stress.parts - exact.parts).max(axis=(0, 2))
 
@@ -181,7 +175,7 @@ HATS_AT_100 = {
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_hats_are_accurate_at_any_depth_and_place(friction):
-    error = errors(100, friction, "hat", ANYWHERE)
+    error = errors(100, friction, stress_at, ANYWHERE)
     assert np.all(error < HATS_AT_100[friction])
     # no worse next to the surface than three pitches below it
     assert error[0] < error[-1]
@@ -195,25 +189,27 @@ ORDERS = {0.0: [2.0, 2.0, 2.0, 2.05, 2.2, 2.3], 0.1: [1.55, 1.55, 1.57, 1.6, 1.6
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_error_of_hats_falls_by_the_square_of_the_pitch_or_with_friction_by_three_halves(friction):
     counts = 200 * 2 ** np.arange(5)
-    worst = [errors(count, friction, "hat", ANYWHERE) for count in counts]
+    worst = [errors(count, friction, stress_at, ANYWHERE) for count in counts]
     order = -np.polyfit(np.log(counts), np.log(worst), 1)[0]
     assert order == pytest.approx(ORDERS[friction], abs=0.1)
 
 
 def test_strips_are_accurate_on_their_axes_just_below_the_surface():
     """Without friction to a few 1e-4 at a hundredth of the pitch, as the published figure."""
-    on_axes = errors(100, 0.0, "strip", axes(100, between=False), DEPTHS[:1])
-    anywhere = errors(100, 0.0, "strip", ANYWHERE, DEPTHS[:1])
+    on_axes = errors(100, 0.0, stress_of_strips, axes(100, between=False), DEPTHS[:1])
+    anywhere = errors(100, 0.0, stress_of_strips, ANYWHERE, DEPTHS[:1])
     assert on_axes < 1e-3
     assert anywhere > 20.0 * on_axes
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_strips_between_their_axes_err_by_the_first_power_of_the_pitch(friction):
-    between = [errors(n, friction, "strip", axes(n, True), DEPTHS[:3]) for n in (50, 100, 200)]
+    between = [
+        errors(n, friction, stress_of_strips, axes(n, True), DEPTHS[:3]) for n in (50, 100, 200)
+    ]
     order = np.log2(np.array(between[:-1]) / between[1:])
     assert order == pytest.approx(np.ones((2, 3)), abs=0.05)
-    hats = errors(200, friction, "hat", axes(200, True), DEPTHS[:3])
+    hats = errors(200, friction, stress_at, axes(200, True), DEPTHS[:3])
     assert np.all(between[-1] > 20.0 * hats)
 
 
@@ -221,16 +217,19 @@ def test_only_strips_spike_at_their_ends_under_friction():
     """Each decade towards a strip's end adds as much again; the hats' error stays."""
     depths = 10.0 ** -np.arange(3.0, 12.0)
     ends = axes(100, between=True)
-    strips = errors(100, 0.1, "strip", ends, depths)
+    strips = errors(100, 0.1, stress_of_strips, ends, depths)
     steps = np.diff(strips)
     assert np.all(steps > 0.0)
     np.testing.assert_allclose(steps[2:], steps[2], rtol=1e-3)
-    hats = errors(100, 0.1, "hat", ends, depths)
+    hats = errors(100, 0.1, stress_at, ends, depths)
     assert np.ptp(hats) < 1e-2 * hats[0]
 
 
 def test_three_pitches_down_elements_do_not_differ():
     for friction in (0.0, 0.1):
-        hats, strips = (errors(100, friction, e, ANYWHERE, [3.0, 10.0]) for e in ("hat", "strip"))
+        hats, strips = (
+            errors(100, friction, stress_of, ANYWHERE, [3.0, 10.0])
+            for stress_of in (stress_at, stress_of_strips)
+        )
         np.testing.assert_allclose(strips, hats, rtol=0.4)
         assert hats.max() < 1e-3

@@ -15,7 +15,6 @@ NODES = (np.arange(COUNT) - COUNT // 2) * PITCH
 
 seeds = st.integers(0, 10**9)
 frictions = st.floats(-1.0, 1.0)
-elements = st.sampled_from(["hat", "strip"])
 
 
 def examples(number: int):
@@ -36,8 +35,8 @@ def places(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return x, z
 
 
-def at(pressure, friction, x, z, element="hat") -> StressState:
-    return stress_at(NODES, pressure, friction, x, z, element)
+def at(pressure, friction, x, z) -> StressState:
+    return stress_at(NODES, pressure, friction, x, z)
 
 
 def assert_equal(state: StressState, expected: StressState, size: float, txz: float = 1.0):
@@ -51,32 +50,32 @@ def combined(*parts: tuple[float, StressState]) -> StressState:
 
 
 class TestPoints:
-    @given(first=seeds, second=seeds, share=st.floats(-2.0, 2.0), friction=frictions, kind=elements)
+    @given(first=seeds, second=seeds, share=st.floats(-2.0, 2.0), friction=frictions)
     @examples(40)
-    def test_superposition(self, first, second, share, friction, kind):
+    def test_superposition(self, first, second, share, friction):
         x, z = places(first)
         p, q = pressures(first), pressures(second)
-        together = at(p + share * q, friction, x, z, kind)
-        parts = combined((1.0, at(p, friction, x, z, kind)), (share, at(q, friction, x, z, kind)))
+        together = at(p + share * q, friction, x, z)
+        parts = combined((1.0, at(p, friction, x, z)), (share, at(q, friction, x, z)))
         assert_equal(together, parts, 10.0)
 
-    @given(seed=seeds, friction=frictions, kind=elements)
+    @given(seed=seeds, friction=frictions)
     @examples(30)
-    def test_friction_is_linear(self, seed, friction, kind):
+    def test_friction_is_linear(self, seed, friction):
         x, z = places(seed)
         p = pressures(seed)
-        none, unit = at(p, 0.0, x, z, kind), at(p, 1.0, x, z, kind)
+        none, unit = at(p, 0.0, x, z), at(p, 1.0, x, z)
         parts = combined((1.0 - friction, none), (friction, unit))
-        assert_equal(at(p, friction, x, z, kind), parts, 10.0)
+        assert_equal(at(p, friction, x, z), parts, 10.0)
 
-    @given(seed=seeds, friction=frictions, kind=elements)
+    @given(seed=seeds, friction=frictions)
     @examples(30)
-    def test_mirror(self, seed, friction, kind):
+    def test_mirror(self, seed, friction):
         """The mirrored pressure that slides the other way gives the mirrored stresses."""
         x, z = places(seed)
         p = pressures(seed)
-        there = stress_at(-NODES[::-1], p[::-1], -friction, -x, z, kind)
-        assert_equal(there, at(p, friction, x, z, kind), 10.0, txz=-1.0)
+        there = stress_at(-NODES[::-1], p[::-1], -friction, -x, z)
+        assert_equal(there, at(p, friction, x, z), 10.0, txz=-1.0)
 
     @given(seed=seeds, friction=frictions, length=st.floats(1e-9, 1e9), load=st.floats(1e-9, 1e9))
     @examples(30)

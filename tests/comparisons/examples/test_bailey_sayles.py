@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scenes import PROJECT
+from strips import stress_of_strips
 
 from analytic.exact.hertz import HertzContact, hertz_stress
-from analytic.stress.points import stress_at
 from comparisons.examples import bailey_sayles as paper
 
 # By figure, in the order of the table; those of 5 are errors, with a test of their own.
@@ -117,7 +117,7 @@ def test_the_paper_s_equations_are_those_of_uniform_strips(friction):
     middles = np.linspace(-1.0, 1.0, 21)
     pressure = np.random.default_rng(7).random(21)
     x, z = np.meshgrid(np.linspace(-1.3, 1.3, 12), [0.003, 0.1, 0.8])
-    exact = stress_at(middles, pressure, friction, x, z, "strip")
+    exact = stress_of_strips(middles, pressure, friction, x, z)
     found = paper.strips(middles, pressure, friction, x, z)
     np.testing.assert_allclose(found, [exact.sx, exact.sz], atol=1e-12)
 

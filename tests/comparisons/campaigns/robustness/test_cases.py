@@ -10,7 +10,7 @@ import pytest
 from analytic.contact import problem as contact
 from analytic.layers import kernel
 from analytic.operators import half_plane as operators
-from analytic.operators.elements import hat_galerkin
+from analytic.operators.elements import at_whole_offsets
 from comparisons.campaigns.cases import Row, rows_of
 from comparisons.campaigns.robustness import all_cases, finite_element, half_plane, measures
 from fem.body import elasticity
@@ -31,11 +31,11 @@ def test_quick_cases_hold():
 
 
 def test_a_broken_kernel_fails_the_rows(monkeypatch):
-    def bent(offset: np.ndarray) -> np.ndarray:
+    def bent(count: int) -> np.ndarray:
         """The hat's coefficients, those of neighbours a thousandth off."""
-        return hat_galerkin(offset) * np.where(np.abs(offset) == 1.0, 1.001, 1.0)
+        return at_whole_offsets(count) * np.where(np.arange(count) == 1, 1.001, 1.0)
 
-    monkeypatch.setattr(operators, "hat_galerkin", bent)
+    monkeypatch.setattr(operators, "at_whole_offsets", bent)
     monkeypatch.setattr(half_plane, "ordinary_shape", half_plane.ordinary_shape.__wrapped__)
     applications = measures.ordinary_applications.__wrapped__
     monkeypatch.setattr(measures, "ordinary_applications", applications)
