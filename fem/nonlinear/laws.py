@@ -64,7 +64,7 @@ def cauchy_stress(
     d u_i / d X_j, for Lame's constants mu and lambda (...) [Pa]."""
     law = Law() if law is None else law
     f = np.eye(2) + gradient
-    volume = np.linalg.det(f)
+    volume = _determinant(f)
     left = f @ np.swapaxes(f, -1, -2)
     eye = np.eye(2)
     if law.name == "neo-hookean":
@@ -83,7 +83,7 @@ def cauchy_stress(
     else:
         ell, m, n = law.murnaghan or (0.0, 0.0, 0.0)
         strain = 0.5 * (np.swapaxes(f, -1, -2) @ f - eye)
-        first, second = np.trace(strain, axis1=-2, axis2=-1), np.linalg.det(strain)
+        first, second = np.trace(strain, axis1=-2, axis2=-1), _determinant(strain)
         shear = 2.0 * (mu + m * first)
         mean = (lame + 2.0 * mu) * first + (ell + 2.0 * m) * first**2 - 2.0 * m * second
         mean = mean - shear * first
@@ -91,6 +91,10 @@ def cauchy_stress(
         stress, across = f @ piola @ np.swapaxes(f, -1, -2), mean + n * second
     parts = [stress[..., 0, 0], stress[..., 1, 1], stress[..., 0, 1], across]
     return np.stack(parts, axis=-1) / volume[..., None]
+
+
+def _determinant(tensor: np.ndarray) -> np.ndarray:
+    return tensor[..., 0, 0] * tensor[..., 1, 1] - tensor[..., 0, 1] * tensor[..., 1, 0]
 
 
 def _times(scalar: np.ndarray, tensor: np.ndarray) -> np.ndarray:
