@@ -81,7 +81,7 @@ def run(
     ['agree', 'agree', None]"""
     from comparisons.common.executors import cluster
 
-    chosen, asked = models_named(models, "models"), scene_of(scene, tolerance, law)
+    chosen, asked = models_named(models), scene_of(scene, tolerance, law)
     with cluster(workers) if workers else nullcontext() as opens:
         solved = FinishedRun.of(_solved(asked, chosen, out, progress, opens))
     if files:
@@ -111,7 +111,7 @@ def plan(
     law: str | None = None,
 ) -> list[str]:
     """Say what `run` would do, and how long it would take, in lines."""
-    asked, chosen = scene_of(scene, tolerance, law), models_named(models, "models")
+    asked, chosen = scene_of(scene, tolerance, law), models_named(models)
     return runs.planned(asked, surface_of(asked), chosen)
 
 
@@ -221,7 +221,7 @@ def sweep(
         over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
     asked = [over] if isinstance(over, str) else list(over)
     scenes = [scene_of(one) for one in (scene if isinstance(scene, list | tuple) else [scene])]
-    chosen = models_named(models, "models")
+    chosen = models_named(models)
     request = sweep_request(scenes, asked, chosen)
     if "finite_element" in chosen:
         check_finite_elements()

@@ -69,6 +69,7 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "txz_max_abs": _stress("largest orthogonal shear stress |τxz|", "|txz| max"),
 }
+MAIN = ("peak_pressure", "contact_length", "tau1_max")  # of these, where there is little room
 # Of every comparison, shown and not judged; that of tau1 over the common window of the fields.
 NORMS = {
     "pressure_l2": Quantity("pressures, relative L2 difference", short="pressure, L2"),
@@ -87,20 +88,18 @@ def error_text(value: float, uncertainty: float | None = None) -> str:
     return percent(value, signed=True, uncertainty=uncertainty)
 
 
-def models_named(names: str | Sequence[str], option: str) -> tuple[str, ...]:
+def models_named(names: str | Sequence[str]) -> tuple[str, ...]:
     """The models that a text names, or several texts; names are separated by commas, "-" is "_".
-    Raises InputError, with the name of the option, for an unknown one and for none."""
+    Raises InputError for an unknown one and for none."""
     listed = names.split(",") if isinstance(names, str) else names
+    allowed = f"allowed are {', '.join(HYPHENATED.values())}"
     if not isinstance(listed, list | tuple) or not all(isinstance(name, str) for name in listed):
-        raise InputError(f"{option}: is {listed!r}; allowed are {', '.join(HYPHENATED.values())}")
+        raise InputError(f"models: is {listed!r}; {allowed}")
     models = [name.strip().replace("-", "_") for name in listed if name.strip()]
-    allowed = ", ".join(HYPHENATED.values())
     for name in models:
         if name not in MODELS:
-            near = HYPHENATED[nearest(name, MODELS)]
-            raise InputError(
-                f"{option}: there is no model {name}; the nearest is {near}; allowed are {allowed}"
-            )
+            near = f"the nearest is {HYPHENATED[nearest(name, MODELS)]}"
+            raise InputError(f"models: there is no model {name}; {near}; {allowed}")
     if not models:
-        raise InputError(f"{option}: is empty; allowed are {allowed}")
+        raise InputError(f"models: is empty; {allowed}")
     return tuple(name for name in MODELS if name in models)

@@ -132,15 +132,14 @@ def _other_way(problem: Problem, level: Level, callback: ProgressCallback) -> Le
     more = int(
         np.ceil(0.5 * abs(problem.largest_friction * problem.dundurs_beta) * level.grid.count)
     )
-    while True:
-        grid = _stretched(problem, level.grid, more)
+    before = None
+    while (grid := _stretched(problem, level.grid, more)) != before:
         [other] = analytic_level(problem, effects, grid, stages).values()
         pressure = other.solution.pressure
         if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             return other
-        more *= 2
-        if _stretched(problem, level.grid, more) == grid:
-            return None
+        more, before = 2 * more, grid
+    return None
 
 
 def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:

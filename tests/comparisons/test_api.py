@@ -247,7 +247,7 @@ def test_figures_are_a_table_and_records(finished):
 def test_a_model_has_one_name_written_in_two_ways(finished, name):
     assert finished.figure("peak_pressure", name, friction=0.1).source == "half_plane"
     assert finished.contact(name)["x"] is not None and finished.stress(name)["x"] is not None
-    assert models_named(name, "models") == ("half_plane",)
+    assert models_named(name) == ("half_plane",)
 
 
 @pytest.mark.parametrize(

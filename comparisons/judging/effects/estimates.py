@@ -14,6 +14,7 @@ Normal-tangential coupling is measured on the half-plane where that is possible
 
 import math
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -41,10 +42,11 @@ class Shown:
     couplings: tuple[Coupling, ...] = ()  # one a friction coefficient
     shear: float = 0.0  # [Pa] largest tau1, at least
 
-
-def mean_pressure(pressure: np.ndarray) -> float:
-    """[Pa] that the load stands under on average, by equal elements."""
-    return float(pressure @ pressure / pressure.sum())
+    @classmethod
+    def by(cls, *pressures: np.ndarray, **beside: object) -> Self:
+        """The largest of pressures [Pa] on equal elements, each (n,), and what is known beside."""
+        means = (float(pressure @ pressure / pressure.sum()) for pressure in pressures)
+        return cls(max(float(pressure.max()) for pressure in pressures), max(means), **beside)
 
 
 def _equal(size: float) -> Sizes:

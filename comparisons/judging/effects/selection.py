@@ -24,7 +24,7 @@ from comparisons.judging.effects.catalogue import (
     estimates,
     why_not,
 )
-from comparisons.judging.effects.estimates import Shown, Sizes, mean_pressure
+from comparisons.judging.effects.estimates import Shown, Sizes
 from comparisons.judging.effects.laws import OpenLaw, open_laws
 from comparisons.judging.study import Solved
 from comparisons.judging.yielding import flow_assessment
@@ -130,8 +130,7 @@ def selected_effects(
     if not why_not(FLOW, problem) and time_with_flow(problem, patches) > problem.time:
         more = with_unit(flow_seconds(problem, patches), "s", 2)
         no_time = f"it takes {more} more (budget.time)"
-    mean = mean_pressure(pressure)
-    shown = Shown(float(pressure.max()), mean, couplings, flow.least_shear)
+    shown = Shown.by(pressure, couplings=couplings, shear=flow.least_shear)
     selection = select_effects(problem, shown, known, no_time)
     asked = problem.scene.budget.effects
     if not solved.plan.effects:

@@ -34,7 +34,7 @@ from comparisons.figures.figure import (
     columns_of,
     grouped,
 )
-from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, WHOLE, label
+from comparisons.figures.quantity import LABELS, MAIN, MODELS, QUANTITIES, WHOLE, label
 from comparisons.judging import contact
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.ladder import candidates
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 # What a method says that cannot solve a scene.
 EXPECTED = InputError, SolverError, ContactError, FemError, MeshError
 NAME, ROWS, CHEAPEST = "cost", "levels", "cheapest"  # study, and its series
-SHOWN = ("peak_pressure", "contact_length", "tau1_max")
 LEAST = 1e-7  # smaller errors are drawn there
 HEIGHT = 3.4  # inches, of the picture
 MARKS = "oDv^<sPX"  # of models
@@ -200,7 +199,7 @@ def _references(
     if LADDER in before:
         errors = Figures(before[MODEL_ERROR].figures).of(source="half_plane")
         unsure = Figures(before[LADDER].figures).of(source=WHOLE)
-        for name in SHOWN:
+        for name in MAIN:
             mine, left = errors.of(quantity=name), unsure.of(quantity=name)
             if len(mine) == len(left) == len(frictions):
                 exact[name] = [error.scale for error in mine]
@@ -209,7 +208,7 @@ def _references(
         name, run = next(reversed(solved.runs.items()))
         figures = Figures(before[contact.NAME].figures).of(source=name)
         words = f"{LABELS[name]} at {with_unit(run.finest.grid.pitch, 'm', 3)}"
-        for quantity in SHOWN:
+        for quantity in MAIN:
             if mine := figures.of(quantity=quantity):
                 exact[quantity] = [figure.value for figure in mine]
                 floors[quantity] = max(figure.numerical for figure in mine)
@@ -251,7 +250,7 @@ def _limit(row: Mapping[str, object]) -> str:
 def table(findings: Findings) -> TextTable:
     """All rows, from coarse to fine."""
     columns = findings.table(ROWS).columns
-    names = [name for name in columns if name in SHOWN]
+    names = [name for name in columns if name in MAIN]
     errors = [["reference" if e is None else percent(e) for e in columns[n].values] for n in names]
     shown = ("model", "pitch", "seconds", "peak_memory")
     model, pitch, time, memory = (stated_text(columns[name]) for name in shown)
@@ -277,7 +276,7 @@ def picture(run: Run) -> style.Picture | None:
     """Error against seconds, a panel a quantity: a line a model, the tolerance, what the reference
     leaves unknown."""
     findings = run.findings[NAME]
-    names = [name for name in findings.table(ROWS).columns if name in SHOWN]
+    names = [name for name in findings.table(ROWS).columns if name in MAIN]
     if not names:
         return None
     from matplotlib.ticker import LogLocator

@@ -13,8 +13,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
 from comparisons.common.numbers import with_unit
 from comparisons.common.tasks import Tasks
 from comparisons.figures.figure import Figure, Part, is_decided
@@ -30,13 +28,7 @@ from comparisons.judging.effects.catalogue import (
     SAMPLING,
     SMALL_STRAINS,
 )
-from comparisons.judging.effects.estimates import (
-    Shown,
-    Sizes,
-    finite_flow,
-    law_of_elasticity,
-    mean_pressure,
-)
+from comparisons.judging.effects.estimates import Shown, Sizes, finite_flow, law_of_elasticity
 from comparisons.judging.effects.sampling import sampling_estimate
 from comparisons.judging.effects.selection import (
     ASKED,
@@ -125,8 +117,7 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
     of cost; else with the reason why not."""
     problem, selection = effects.problem, budget.selection
     strains = [s for level in budget.wholes if (s := level.plastic_strain) is not None]
-    pressures = [level.solution.pressure for level in budget.wholes]
-    shown = Shown(max(map(np.max, pressures)), max(map(mean_pressure, pressures)))
+    shown = Shown.by(*(level.solution.pressure for level in budget.wholes))
     tolerances = problem.scene.tolerances
     if selection.impossible.get(LAW) == ITS_OWN_LAW:
         sizes = law_of_elasticity(problem, shown)

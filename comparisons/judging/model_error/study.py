@@ -13,11 +13,11 @@ from comparisons.common.numbers import with_unit
 from comparisons.common.progress import Early
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement
-from comparisons.figures.quantity import QUANTITIES, WHOLE
+from comparisons.figures.quantity import MAIN, QUANTITIES, WHOLE
 from comparisons.judging import comparison
 from comparisons.judging.coupling import Coupling, coupled
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, estimates
-from comparisons.judging.effects.estimates import Shown, mean_pressure
+from comparisons.judging.effects.estimates import Shown
 from comparisons.judging.effects.laws import trust
 from comparisons.judging.effects.sampling import announce_sampling
 from comparisons.judging.effects.selection import effects_of_run
@@ -31,8 +31,6 @@ from comparisons.judging.study import Solved, Study
 from comparisons.judging.yielding import flow_assessment
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
-
-SAID_EARLY = ("peak_pressure", "contact_length", "tau1_max")
 
 
 def begin(solved: Solved, tasks: Tasks) -> None:
@@ -119,7 +117,7 @@ def early_lines(
 
     couplings  of the half-plane, where they are known"""
     scene, known = problem.scene, values_of(level, problem)
-    figures = {name: known[name] for name in SAID_EARLY if name in known}
+    figures = {name: known[name] for name in MAIN if name in known}
     said = [
         f"{QUANTITIES[name].short} {with_unit(value, QUANTITIES[name].unit)}"
         for name, value in figures.items()
@@ -127,8 +125,7 @@ def early_lines(
     # half-planes do not flow, though the scene's finite elements may
     flow = False if scene.finite_element.plastic is False else None
     elastic = replace(problem, scene=scene.unchecked({"finite_element.plastic": flow}))
-    pressure = level.solution.pressure
-    sizes = estimates(elastic, Shown(float(pressure.max()), mean_pressure(pressure), couplings))
+    sizes = estimates(elastic, Shown.by(level.solution.pressure, couplings=couplings))
     left = []
     for name in figures:
         total = sum(of.get(name, 0.0) for of in sizes.values())

@@ -22,7 +22,7 @@ from comparisons.common.numbers import (
 )
 from comparisons.common.progress import ProgressCallback
 from comparisons.figures.figure import Findings, grouped
-from comparisons.figures.quantity import LABELS, MODELS, QUANTITIES, error_text, label
+from comparisons.figures.quantity import LABELS, MAIN, MODELS, QUANTITIES, error_text, label
 from comparisons.judging import contact
 from comparisons.judging.study import MODEL_ERROR
 from comparisons.output.page.html import inline, rendered
@@ -33,12 +33,11 @@ from comparisons.studies import problem
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-FIGURES = ("peak_pressure", "contact_length", "tau1_max")
 # What a row may show, in the order of columns: name, head.
 COLUMNS = {
     "within": "right within",
     **{name: problem.QUANTITIES[name].label.rpartition(", ")[2] for name in problem.GROUPS},
-    **{name: label(name) for name in FIGURES},
+    **{name: label(name) for name in MAIN},
     **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
     **{f"seconds_{name}": f"time, {LABELS[name]}" for name in MODELS},
     "seconds_error_budget": "time summed over cores, error budget",
@@ -155,7 +154,7 @@ def _cells(result: Result) -> Iterator[tuple[str, str, float] | tuple[str, str, 
         yield group.quantity, significant(group.value, 3), group.value
     # the finite elements', or the only model's, each the largest of any friction
     known = result.figures.of(study=contact.NAME, source=result.models[-1])
-    for name in FIGURES:
+    for name in MAIN:
         if values := [figure.value for figure in known.of(quantity=name)]:
             yield name, with_unit(max(values), QUANTITIES[name].unit), max(values)
     for errors in grouped(result.model_errors, attrgetter("quantity")):
