@@ -1,4 +1,4 @@
-"""A roller over rough ground, alike for plain and for sliding contact."""
+"""A roller over rough ground, alike for plain and for sliding contact; each solution converges."""
 
 from collections.abc import Callable
 
@@ -45,12 +45,14 @@ class Roller:
         self, grid: HatGrid, gap: Gap, constraints: Constraints | None = None, knots=None
     ) -> ContactSolution:
         """Solution on a grid, load prescribed unless said otherwise."""
-        return solve_contact(
+        solution = solve_contact(
             HalfPlane(grid.count, grid.pitch, self.modulus),
             grid.hat_integrals(gap, knots),
             grid.weights,
             constraints or Constraints(load=self.load),
         )
+        assert solution.converged
+        return solution
 
     def sliding(
         self,
@@ -61,13 +63,15 @@ class Roller:
         start: np.ndarray | None = None,
     ) -> ContactSolution:
         """Contact while it slides, with friction times Dundurs' beta."""
-        return solve_coupled(
+        solution = solve_coupled(
             coupled_half_planes(grid.count, grid.pitch, self.modulus, friction_dundurs),
             grid.hat_integrals(gap),
             grid.weights,
             constraints or Constraints(load=self.load),
             start,
         )
+        assert solution.converged
+        return solution
 
 
 @pytest.fixture(scope="session")

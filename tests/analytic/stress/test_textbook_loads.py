@@ -1,18 +1,14 @@
-"""Strips and hats against the printed fields of line, strip and triangle loads.
+"""Hats against the printed fields of line and triangle loads, and of strips that they stand for.
 
     P, Q at x = 0             line load [N/m]
-    p, q on |x| < a           uniform strip [Pa]
     p, q at x = 0, linear to zero at -a and a    triangle [Pa]
 
 P and p press into the body, Q and q act on it in +x; r, t distance and angle from x, r1, t1 from
 x - a and r2, t2 from x + a, t = atan2(z, x). Stresses, tension positive (Johnson 1985, sections
-2.2 to 2.5; the strip's also Bailey and Sayles 1991, eq. 1 and 2):
+2.2 to 2.5):
 
     line      sx, txz, sz = -(2/pi) (x^2 z, x z^2, z^3) P/r^4
               sx, txz, sz = -(2/pi) (x^3, x^2 z, x z^2) Q/r^4
-    strip     sx, sz = -(p/2pi) (2 (t1-t2) +- (sin 2t1 - sin 2t2))
-              txz = (p/2pi) (cos 2t1 - cos 2t2)
-              sx = (q/2pi) (4 ln(r1/r2) - (cos 2t1 - cos 2t2))
     triangle  sz = (p/pi a) ((x-a) t1 + (x+a) t2 - 2 x t),  sx = sz + (2 p z/pi a) ln(r1 r2/r^2)
               txz = -(p z/pi a) (t1 + t2 - 2 t)
               sx = (q/pi a) (3 z (t1+t2-2t) - 2 ((x-a) ln r1 + (x+a) ln r2 - 2 x ln r))
@@ -26,7 +22,7 @@ import numpy as np
 import pytest
 from exact_stresses import hat_stress
 from scipy.special import xlogy
-from strips import stress_of_strips, strip_stress
+from strips import strip_stress
 
 from analytic.stress.elements import FrictionStress
 from analytic.stress.points import stress_at
@@ -42,17 +38,6 @@ def line(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     return FrictionStress(StressState(sx, sz, txz), sx_traction)
 
 
-def strip(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
-    """Stresses under p and q of 1 Pa."""
-    x, z = x / a, z / a
-    t1, t2 = np.arctan2(z, x - 1.0), np.arctan2(z, x + 1.0)
-    sines, cosines = np.sin(2.0 * t1) - np.sin(2.0 * t2), np.cos(2.0 * t1) - np.cos(2.0 * t2)
-    stretch = 4.0 * (np.log(np.hypot(x - 1.0, z)) - np.log(np.hypot(x + 1.0, z)))
-    level = -2.0 * (t1 - t2)
-    parts = np.array([level - sines, level + sines, cosines, stretch - cosines]) / (2.0 * np.pi)
-    return FrictionStress(StressState(*parts[:3]), parts[3])
-
-
 def triangle(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
     """Stresses under p and q of 1 Pa at x = 0."""
     x, z = x / a, z / a
@@ -65,14 +50,6 @@ def triangle(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
     stretch = xlogy(x - 1.0, r1) + xlogy(x + 1.0, r2) - 2.0 * xlogy(x, r)
     parts = np.array([level + 2.0 * logs, level, -turn, 3.0 * turn - 2.0 * stretch]) / np.pi
     return FrictionStress(StressState(*parts[:3]), parts[3])
-
-
-# printed field, the project's by x, z and half-width, shape of the load
-LOADS = {
-    "strip": (strip, strip_stress, np.ones_like),
-    "triangle": (triangle, hat_stress, lambda point: 1.0 - np.abs(point)),
-}
-each_load = pytest.mark.parametrize("load", LOADS)
 
 
 def test_line_load_is_in_equilibrium_and_compatible():
@@ -100,12 +77,8 @@ def test_line_load_is_in_equilibrium_and_compatible():
 @pytest.mark.parametrize("friction", [0.0, 0.3, -1.0])
 @pytest.mark.parametrize(
     ("field", "resultant"),
-    [
-        (line, 1.0),
-        (partial(strip_stress, half_width=1.0), 2.0),
-        (partial(hat_stress, pitch=1.0), 1.0),
-    ],
-    ids=["line", "strip", "hat"],
+    [(line, 1.0), (partial(hat_stress, pitch=1.0), 1.0)],
+    ids=["line", "hat"],
 )
 def test_stresses_carry_the_load_through_any_arc(field, resultant, friction):
     """Tractions on half-circles about the load carry P down and friction P along."""
@@ -120,51 +93,47 @@ def test_stresses_carry_the_load_through_any_arc(field, resultant, friction):
         assert along == pytest.approx(-friction * resultant, rel=1e-10, abs=1e-10)
 
 
-@each_load
-def test_distributed_loads_are_sums_of_line_loads(load):
-    printed, recast, shape = LOADS[load]
+def test_a_triangle_is_a_sum_of_line_loads():
     a = 2e-3
     rng = np.random.default_rng(2)
     x, z = a * rng.uniform(-5.0, 5.0, 300), a * rng.uniform(0.15, 5.0, 300)
     expected = np.zeros((3, 300))
     for start in (-1.0, 0.0):
         point = start + 0.5 * (1.0 + GAUSS)
-        for at, weight in zip(point, 0.5 * a * WEIGHT * shape(point), strict=True):
+        shape = 1.0 - np.abs(point)
+        for at, weight in zip(point, 0.5 * a * WEIGHT * shape, strict=True):
             expected += weight * line(x - a * at, z).at(0.3).parts
-    for field in (printed, recast):
+    for field in (triangle, hat_stress):
         stress = field(x, z, a).at(0.3).parts
         np.testing.assert_allclose(stress, expected, rtol=0.0, atol=8e-15)
 
 
-@each_load
-def test_elements_of_the_field_are_these(load):
-    """The recast formulas of the elements against the printed ones, anywhere."""
-    printed, recast, _ = LOADS[load]
+def test_a_hat_is_the_triangle():
+    """The recast formulas of the hat against the printed ones, anywhere."""
     rng = np.random.default_rng(3)
     x = rng.uniform(-4.0, 4.0, 1000)
     z = 10.0 ** rng.uniform(-9.0, 0.6, 1000)
     z[:20] = 0.0
     for friction in (0.0, 0.7):
-        here, there = printed(x, z).at(friction), recast(x, z, 1.0).at(friction)
+        here, there = triangle(x, z).at(friction), hat_stress(x, z, 1.0).at(friction)
         np.testing.assert_allclose(here.parts, there.parts, rtol=0.0, atol=1e-14)
 
 
-@pytest.mark.parametrize("stress_of", [stress_at, stress_of_strips])
 @pytest.mark.parametrize("friction", [0.0, 0.3, -1.0])
-@each_load
-def test_elements_that_stand_for_the_load_meet_it(load, friction, stress_of):
-    """Hats hold a triangle exactly; a strip by hats, either by strips, to the pitch squared."""
-    printed, _, shape = LOADS[load]
+@pytest.mark.parametrize(
+    ("load", "ends"), [(partial(strip_stress, half_width=1.0), 0.5), (triangle, 0.0)]
+)
+def test_hats_that_stand_for_a_load_meet_it(load, ends, friction):
+    """A triangle exactly, a uniform strip to the pitch squared."""
     x, z = np.meshgrid(np.linspace(-2.0, 2.0, 33), [0.5, 1.0, 2.0])
-    exact, errors, counts = printed(x, z).at(friction), [], np.array([10, 20, 40, 80])
+    exact, errors, counts = load(x, z).at(friction), [], np.array([10, 20, 40, 80])
     for count in counts:
         nodes = np.arange(-count, count + 1) / count
-        pressure = shape(nodes)
-        if load == "strip":
-            pressure[[0, -1]] = 0.5
-        stress = stress_of(nodes, pressure, friction, x, z)
+        pressure = 1.0 - np.abs(nodes) if load is triangle else np.ones_like(nodes)
+        pressure[[0, -1]] = ends
+        stress = stress_at(nodes, pressure, friction, x, z)
         errors.append(np.abs(stress.parts - exact.parts).max())
-    if (stress_of, load) == (stress_at, "triangle"):
+    if load is triangle:
         assert max(errors) < 1e-13
         return
     order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
