@@ -68,10 +68,6 @@ class Profile:
         """Profile whose x = `position` [m] is moved to the origin."""
         return replace(self, x=self.x - position)
 
-    def mirrored(self) -> "Profile":
-        """The profile as seen from the other side: height(-x)."""
-        return replace(self, x=-self.x[::-1], height=self.height[::-1])
-
 
 def surface(profile: Profile) -> Surface:
     """The profile's spline as a callable that refuses to leave the samples. The result takes x [m]

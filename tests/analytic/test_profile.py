@@ -36,15 +36,6 @@ def test_shift_moves_the_position_to_the_origin():
     assert surface(moved)(0.0) == pytest.approx(cubic(2.0), rel=1e-14)
 
 
-def test_mirrored_profile_is_the_mirrored_curve():
-    mirrored = cubic_profile().mirrored()
-    x = np.linspace(-6.0, 3.0, 41)
-    np.testing.assert_allclose(surface(mirrored)(x), cubic(-x), rtol=1e-12)
-    twice = mirrored.mirrored()
-    np.testing.assert_array_equal(twice.x, UNEVEN)
-    np.testing.assert_array_equal(twice.height, cubic(UNEVEN))
-
-
 @pytest.mark.parametrize("x", [-3.001, 6.001, np.nan, [0.0, 7.0]])
 def test_surface_refuses_to_extrapolate(x):
     with pytest.raises(ValueError, match="known from x = -3 m to 6 m, not at"):

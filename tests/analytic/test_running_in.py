@@ -8,7 +8,7 @@ import pytest
 from exact_stresses import flowed_volume, largest_overlap
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
-from text_profiles import GROUND, read_profile
+from text_profiles import GROUND, mirrored, read_profile
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
@@ -237,8 +237,8 @@ class TestSymmetry:
         assert (worn.status, worn.sweeps) == (wavy.status, wavy.sweeps)
 
     def test_mirrored_profile_runs_into_the_mirrored_one(self, wavy):
-        worn = ran_in(WAVY.mirrored(), -PLACES)
-        apart = worn.profile.mirrored().height - wavy.profile.height
+        worn = ran_in(mirrored(WAVY), -PLACES)
+        apart = mirrored(worn.profile).height - wavy.profile.height
         assert np.abs(apart).max() <= 1e-8 * wavy.largest_lowering
 
     def test_place_on_the_trace_does_not_matter(self, wavy):

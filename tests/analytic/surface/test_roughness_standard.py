@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scenes import MEASURED, PROFILES
 from scipy.ndimage import gaussian_filter1d
-from text_profiles import read_profile
+from text_profiles import mirrored, read_profile
 
 import analytic.surface.filters as module
 from analytic.profile import Profile
@@ -151,18 +151,18 @@ def test_what_lies_beyond_the_filters_reach_does_not_count(short):
 def test_scales_and_mirrors():
     base = self_affine(hurst=0.8, samples=4001, length=8e-3, seed=3, rms_height=1e-6)
     figures = standard_roughness(base, CUTOFF, 10e-6)
-    mirrored = standard_roughness(base.mirrored(), CUTOFF, 10e-6)
+    other_way = standard_roughness(mirrored(base), CUTOFF, 10e-6)
     scaled = standard_roughness(Profile(50.0 * base.x, 7.0 * base.height), 50.0 * CUTOFF, 5e-4)
     upside_down = standard_roughness(Profile(base.x, -base.height), CUTOFF, 10e-6)
     for name in ("ra", "rq", "rt", "rz"):
         wanted = getattr(figures, name)
-        assert getattr(mirrored, name) == pytest.approx(wanted, rel=1e-8)
+        assert getattr(other_way, name) == pytest.approx(wanted, rel=1e-8)
         assert getattr(upside_down, name) == pytest.approx(wanted, rel=1e-9)
         assert getattr(scaled, name) == pytest.approx(7.0 * wanted, rel=1e-8)
     assert scaled.rsm == pytest.approx(50.0 * figures.rsm, rel=1e-8)
     assert scaled.rdq == pytest.approx(7.0 / 50.0 * figures.rdq, rel=1e-8)
     assert upside_down.rsk == pytest.approx(-figures.rsk, rel=1e-8)
-    assert mirrored.rsk == pytest.approx(figures.rsk, rel=1e-7)
+    assert other_way.rsk == pytest.approx(figures.rsk, rel=1e-7)
 
 
 def test_waviness_and_tilt_do_not_count():
@@ -290,8 +290,8 @@ def test_offset_and_mirror_change_only_what_they_should():
     lifted = roughness(Profile(base.x, base.height + 1e-3))
     assert lifted.mean == pytest.approx(1e-3 + wanted.mean, rel=1e-12)
     np.testing.assert_allclose(as_array(lifted)[1:], as_array(wanted)[1:], rtol=1e-8)
-    mirrored = as_array(roughness(base.mirrored()))
-    np.testing.assert_allclose(mirrored[1:], as_array(wanted)[1:], rtol=1e-9)
+    other_way = as_array(roughness(mirrored(base)))
+    np.testing.assert_allclose(other_way[1:], as_array(wanted)[1:], rtol=1e-9)
     upside_down = roughness(Profile(base.x, -base.height))
     assert upside_down.rsk == pytest.approx(-wanted.rsk, rel=1e-9)
 
@@ -337,7 +337,7 @@ def test_shortest_wavelength_on_uneven_samples_and_other_units():
     assert 1 / 41 <= length <= 1 / 39.9
     scaled = Profile(1e-3 * x, 1e-9 * profile.height + 1e-4)
     assert shortest_wavelength(scaled) == pytest.approx(1e-3 * length, rel=1e-6)
-    assert shortest_wavelength(profile.mirrored()) == pytest.approx(length, rel=1e-9)
+    assert shortest_wavelength(mirrored(profile)) == pytest.approx(length, rel=1e-9)
 
 
 def test_tilt_has_no_wavelength():
@@ -508,8 +508,8 @@ def test_filters_scale_and_mirror():
     line = mean_line(ROUGH, 5e-4)
     scaled = mean_line(Profile(1e3 * ROUGH.x, 1e-6 * ROUGH.height), 0.5)
     np.testing.assert_allclose(scaled, 1e-6 * line, rtol=0.0, atol=1e-12 * 1e-12)
-    mirrored = mean_line(ROUGH.mirrored(), 5e-4)[::-1]
-    np.testing.assert_allclose(mirrored, line, rtol=0.0, atol=1e-11 * np.max(np.abs(line)))
+    other_way = mean_line(mirrored(ROUGH), 5e-4)[::-1]
+    np.testing.assert_allclose(other_way, line, rtol=0.0, atol=1e-11 * np.max(np.abs(line)))
     lifted = mean_line(Profile(ROUGH.x, ROUGH.height + 1.0), 5e-4)
     np.testing.assert_allclose(lifted - 1.0, line, rtol=0.0, atol=1e-14)
 

@@ -5,6 +5,7 @@ from math import inf, isinf, sqrt
 
 import numpy as np
 import pytest
+from text_profiles import mirrored
 
 from analytic.profile import MAX_SAMPLES, Profile
 from analytic.surface.form import remove_form, trapezoid_widths
@@ -298,10 +299,10 @@ def test_units_of_form_do_not_matter(scale):
 def test_mirrored_trace_has_the_mirrored_form():
     profile = Profile(X, arc(X, 0.01, 0.05) + 1e-6 * np.cos(X / 1e-4))
     left, form = remove_form(profile, "arc")
-    mirrored_left, mirrored = remove_form(profile.mirrored(), "arc")
-    assert mirrored.slope == pytest.approx(-form.slope, rel=1e-9)
-    assert mirrored.radius == pytest.approx(form.radius, rel=1e-9)
-    np.testing.assert_allclose(mirrored_left.height, left.height[::-1], atol=1e-15)
+    other_left, other = remove_form(mirrored(profile), "arc")
+    assert other.slope == pytest.approx(-form.slope, rel=1e-9)
+    assert other.radius == pytest.approx(form.radius, rel=1e-9)
+    np.testing.assert_allclose(other_left.height, left.height[::-1], atol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from text_profiles import read_measured, read_profile
+from text_profiles import read_measured, read_profile, refused
 
 from analytic.surface.readers import columns
 from analytic.surface.readers.dropouts import gaps
@@ -75,13 +75,10 @@ BAD_ALONE = {
 
 
 def refusal(path, **options):
-    with pytest.raises(ProfileError) as caught:
-        read_profile(path, **({"x_scale": 1e-6, "height_scale": 1e-6} | options))
-    message = str(caught.value)
-    assert message.startswith(str(path)) and "\n" not in message
-    named = re.match(r", line (\d+): ", message.removeprefix(str(path)))
-    assert (int(named[1]) if named else None) == caught.value.line
-    return message, caught.value.line
+    error = refused(path, read_profile, **{"x_scale": 1e-6, "height_scale": 1e-6} | options)
+    named = re.match(r", line (\d+): ", str(error).removeprefix(str(path)))
+    assert (int(named[1]) if named else None) == error.line
+    return str(error), error.line
 
 
 def read_content(folder, content, **how):

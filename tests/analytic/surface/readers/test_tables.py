@@ -6,7 +6,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from text_profiles import read_measured
+from text_profiles import read_measured, refused
 
 from analytic.surface.readers import source
 from analytic.surface.readers.arrays import read_arrays
@@ -43,10 +43,7 @@ def text(folder, head, *columns, end="\n"):
 
 
 def refusal(path, kind=ProfileError, **options) -> str:
-    with pytest.raises(kind) as caught:
-        read_measured(path, **UM | options)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
+    return str(refused(path, kind=kind, **UM | options))
 
 
 def test_empty_columns_at_the_end_are_none(tmp_path):
