@@ -16,9 +16,8 @@ from comparisons.figures.figure import Figure, Findings
 from comparisons.figures.quantity import COMPARED
 from comparisons.judging.effects.catalogue import contained
 from comparisons.judging.ladder.candidates import solutions, why_no_stresses
-from comparisons.judging.rule import COMPARISON as NAME
 from comparisons.judging.rule import judged, norms_of
-from comparisons.judging.study import LAYERED, Case, Solved, Study
+from comparisons.judging.study import COMPARISON, LAYERED, Case, Solved, Study
 from comparisons.models.level import Solution
 from comparisons.models.operators import LAYERS, is_layered
 
@@ -72,5 +71,5 @@ def _left(figures: Mapping[str, Figure]) -> dict[str, float]:
     return {name: figure.uncertainty.parts["discretisation"] for name, figure in figures.items()}
 
 
-STUDY = Study(NAME, COMPARED, solve, applies=lambda solved: solved.plan.compares)
+STUDY = Study(COMPARISON, COMPARED, solve, applies=lambda solved: solved.plan.compares)
 LAYERED_STUDY = Study(LAYERED, COMPARED, solve_layered, applies=is_of_layers)

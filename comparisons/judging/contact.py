@@ -16,8 +16,8 @@ from comparisons.figures.figure import Column, Figure, Findings, Series, Stateme
 from comparisons.figures.quantity import QUANTITIES as COMPARED
 from comparisons.figures.quantity import WHOLE, Quantity
 from comparisons.figures.uncertainty import Uncertainty
-from comparisons.judging.rule import CONTACT as NAME
 from comparisons.judging.rule import EXTREMES, judged
+from comparisons.judging.study import CONTACT as NAME
 from comparisons.judging.study import SCATTER, Case, Run, Solved, Study
 from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem

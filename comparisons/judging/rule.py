@@ -25,11 +25,11 @@ from comparisons.figures.uncertainty import (
     of_increments,
     peak_resolution,
 )
+from comparisons.judging.study import COMPARISON, CONTACT
 from comparisons.models.level import Level, Solution
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
-CONTACT, COMPARISON = "contact", "comparison"  # studies of a model by itself, and of a difference
 UNDER_CREST = 4.0  # pressure elements within which stresses are as finely resolved as pressures
 AT_SURFACE = 1e-3  # pressure elements below which a largest stress is at the surface
 # By figure, the one whose largest value it is or belongs to.

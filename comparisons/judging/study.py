@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 WHY_NOT, CONVERGED = "not done", "converged"
 MODEL_ERROR = "model_error"  # the study that judges the half-plane
 SCATTER = "scatter"  # the study of uncertain inputs
+CONTACT = "contact"  # the study of each model by itself
 COMPARISON = "comparison"  # the study that judges the models against each other
 LAYERED = "layered"  # the study that does so for the analytic model of a layer or a coating
 LADDER = "ladder"  # the study that judges other models beside it, which no run answers for

@@ -14,7 +14,6 @@ from comparisons.common.progress import Early
 from comparisons.common.tasks import LAST, LATER, PERHAPS, Tasks
 from comparisons.figures.figure import Column, Findings, Series, Statement
 from comparisons.figures.quantity import MAIN, QUANTITIES, WHOLE
-from comparisons.judging import comparison
 from comparisons.judging.coupling import Coupling, coupled
 from comparisons.judging.effects.catalogue import EFFECTS, FLOW, estimates
 from comparisons.judging.effects.estimates import Shown
@@ -26,8 +25,8 @@ from comparisons.judging.model_error.error_budget import error_budget
 from comparisons.judging.model_error.refinement import LEAST_LEVELS, EffectRefinement, ErrorBudget
 from comparisons.judging.model_error.show import TRUST
 from comparisons.judging.rule import values_of
+from comparisons.judging.study import COMPARISON, Solved, Study
 from comparisons.judging.study import MODEL_ERROR as NAME
-from comparisons.judging.study import Solved, Study
 from comparisons.judging.yielding import flow_assessment
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
@@ -81,7 +80,7 @@ def _announced(solved: Solved, tasks: Tasks) -> Callable[[], None]:
 
 
 def solve(solved: Solved, before: Mapping[str, Findings], tasks: Tasks) -> Findings:
-    budget = error_budget(solved, before[comparison.NAME].figures, tasks)
+    budget = error_budget(solved, before[COMPARISON].figures, tasks)
     return findings_of(budget, solved.problem)
 
 

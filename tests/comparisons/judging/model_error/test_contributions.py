@@ -2,7 +2,6 @@
 
 import itertools
 from collections.abc import Iterable
-from contextlib import suppress
 from functools import reduce
 from operator import sub
 
@@ -12,7 +11,6 @@ import pytest
 from comparisons.judging.effects.catalogue import model_with
 from comparisons.judging.effects.selection import EffectSelection
 from comparisons.judging.model_error.model_error import Solutions, split_variants
-from comparisons.judging.model_error.refinement import NotComputedError
 from comparisons.judging.rule import QuantitiesOfInterest
 from comparisons.judging.study import Case
 
@@ -36,37 +34,43 @@ def what_is_left(parts: Solutions) -> QuantitiesOfInterest:
     return reduce(sub, effects, parts.missing[0] - parts.interaction[0])
 
 
-def split_by(problem, solutions, friction=0.0, contained=(), added=()):
-    """The variants, and what was solved on one level."""
+def drawn(name: str) -> QuantitiesOfInterest:
+    """A solution drawn at random, the same for each model of the name."""
+    rng = np.random.default_rng(abs(hash(name)))
+    figures = {"peak_pressure": rng.normal(size=3), "contact_length": rng.normal(size=1)}
+    return QuantitiesOfInterest(figures)
+
+
+def split_by(problem, friction=0.0, contained=(), added=(), scene=PLAIN, without=()):
+    """The variants, and solutions of all but those `without` on one level; the scene's own finite
+    elements are the model of the name `scene`."""
     split = split_variants(problem, selection_of(contained, added), friction)
-    level = {}
-    for variant in (None, *split.all):
-        with suppress(NotComputedError):
-            level[variant] = solutions(variant)
+    names = {None: scene} | {variant: variant.name for variant in split.all}
+    level = {one: drawn(name) for one, name in names.items() if name not in without}
     return split, Solutions(Case(problem), split, (), (level,), 1)
 
 
 @pytest.mark.parametrize("count", range(1, len(SINGLE) + 1))
 @pytest.mark.parametrize("friction", [0.0, 0.3])
-def test_effects_and_interaction_add_up_to_the_whole(problem_with, made_solutions, count, friction):
+def test_effects_and_interaction_add_up_to_the_whole(problem_with, count, friction):
     problem = problem_with(load={"friction": friction})
     for names in itertools.combinations(SINGLE, count):
-        _, parts = split_by(problem, made_solutions(PLAIN), friction, added=names)
+        _, parts = split_by(problem, friction, added=names)
         assert is_nothing(what_is_left(parts))  # the scene's own has none of them
         assert set(parts.effects) == set(names) - ({COUPLED} if friction == 0.0 else set())
 
 
 @pytest.mark.parametrize("name", ["exact_circle", "finite_strain"])
-def test_one_effect_does_not_interact(problem_with, made_solutions, name):
-    split, parts = split_by(problem_with(), made_solutions(PLAIN), added={name})
+def test_one_effect_does_not_interact(problem_with, name):
+    split, parts = split_by(problem_with(), added={name})
     assert is_nothing(parts.interaction[0])
     assert is_nothing(parts.effects[name][0] - parts.missing[0])
     assert len(split.all) == 2
 
 
-def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_solutions):
+def test_what_the_scene_has_is_split_but_not_lacking(problem_with):
     problem = problem_with(finite_element={"roller_shape": "circle"})
-    _, parts = split_by(problem, made_solutions(CIRCLE), contained={"exact_circle"})
+    _, parts = split_by(problem, contained={"exact_circle"}, scene=CIRCLE)
     assert set(parts.effects) == {"exact_circle"}
     assert not is_nothing(parts.effects["exact_circle"][0])
     assert is_nothing(parts.missing[0])
@@ -87,21 +91,20 @@ def test_frictions_share_bodies_that_it_does_not_press_otherwise(problem_with):
 class TestFiniteDeformation:
     """Measured with friction where there is any, and on the trace as boundary."""
 
-    def test_it_is_the_only_effect_that_is_solved(self, problem_with, made_solutions):
+    def test_it_is_the_only_effect_that_is_solved(self, problem_with):
         problem = problem_with(roller={"rigid": True}, profile=WAVY, load={"friction": 0.2})
-        solutions = made_solutions(PLAIN)
-        split, parts = split_by(problem, solutions, 0.2, added={"finite_strain"})
+        split, parts = split_by(problem, 0.2, added={"finite_strain"})
         assert set(parts.effects) == {"finite_strain"}
         assert split.whole == model_with(problem, frozenset({"finite_strain", COUPLED}), 0.2)
-        assert set(solutions.asked) == {split.whole.name, PLAIN}
+        assert {variant.name for variant in split.all} == {split.whole.name, PLAIN}
         strained = split.whole.posed(problem)
         assert strained.scene.finite_element.coupled and strained.scene.load.friction == (0.2,)
         assert strained.rough_boundary
 
-    def test_coupling_that_matters_is_no_part_of_it(self, problem_with, made_solutions):
+    def test_coupling_that_matters_is_no_part_of_it(self, problem_with):
         problem = problem_with(roller={"rigid": True}, load={"friction": 0.2})
         added = {"finite_strain", COUPLED}
-        split, parts = split_by(problem, made_solutions(PLAIN), 0.2, added=added)
+        split, parts = split_by(problem, 0.2, added=added)
         coupled = model_with(problem, frozenset({COUPLED}), 0.2)
         assert split.pairs[COUPLED] == (coupled, model_with(problem, frozenset()))
         assert split.pairs["finite_strain"] == (split.whole, coupled)
@@ -121,15 +124,14 @@ class TestFiniteDeformation:
 class TestWithoutSolution:
     ADDED = ("exact_circle", "finite_roller", "finite_strain")
 
-    def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with, made_solutions):
-        solutions = made_solutions(PLAIN, (CIRCLE,))
-        _, parts = split_by(problem_with(), solutions, added=self.ADDED)
+    def test_of_an_effect_by_itself_the_interaction_has_it(self, problem_with):
+        _, parts = split_by(problem_with(), added=self.ADDED, without=(CIRCLE,))
         assert set(parts.effects) == {"finite_roller", "finite_strain"}
         assert is_nothing(what_is_left(parts))
 
-    def test_of_none_the_whole_stays(self, problem_with, made_solutions):
-        solutions = made_solutions(CIRCLE, (PLAIN,))
-        split, parts = split_by(problem_with(), solutions, added=self.ADDED)
+    def test_of_none_the_whole_stays(self, problem_with):
+        how = {"scene": CIRCLE, "without": (PLAIN,)}
+        split, parts = split_by(problem_with(), added=self.ADDED, **how)
         assert parts.effects == {} and split.nothing not in parts.history[0]
         assert not is_nothing(parts.missing[0])
 
