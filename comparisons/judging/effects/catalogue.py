@@ -128,7 +128,7 @@ EFFECTS = {
         "the surface between the samples, by what leaving out every other one changes",
     ),
 }
-NONLINEAR = tuple(name for name, effect in EFFECTS.items() if effect.is_nonlinear)
+NONLINEAR = frozenset(name for name, effect in EFFECTS.items() if effect.is_nonlinear)
 # What a scene does not say: no finite elements have another one.
 UNKNOWN = tuple(name for name, effect in EFFECTS.items() if not (effect.sets or effect.takes))
 

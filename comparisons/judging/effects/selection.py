@@ -57,7 +57,7 @@ class EffectSelection:
     def negligible(self) -> frozenset[str]:
         """Effects that are too small to matter, by their estimates."""
         larger = self.whole | self.impossible.keys() | ({LAW} if self.laws else set())
-        larger |= {COUPLED} if self.whole & set(NONLINEAR) else set()  # these bodies have it
+        larger |= {COUPLED} if self.whole & NONLINEAR else set()  # these bodies have it
         return frozenset(self.estimates) - larger
 
     def without(self, names: frozenset[str], why: str) -> "EffectSelection":

@@ -193,25 +193,22 @@ def _references(
     """The whole model where it was judged, else the last model's finest level, in words; by
     quantity its figures [SI], one a friction coefficient, and their largest relative
     uncertainty."""
-    frictions, words = solved.problem.scene.load.friction, f"the {LABELS[WHOLE]}"
-    exact: dict[str, list[float]] = {}
-    floors: dict[str, float] = {}
+    words, known = f"the {LABELS[WHOLE]}", {}  # by quantity, values and figures as uncertain
     if LADDER in before:
         errors = Figures(before[MODEL_ERROR].figures).of(source="half_plane")
         unsure = Figures(before[LADDER].figures).of(source=WHOLE)
         for name in MAIN:
             mine, left = errors.of(quantity=name), unsure.of(quantity=name)
-            if len(mine) == len(left) == len(frictions):
-                exact[name] = [error.scale for error in mine]
-                floors[name] = max(figure.numerical for figure in left)
-    if not exact:
+            if len(mine) == len(left) == len(solved.cases):
+                known[name] = [error.scale for error in mine], left
+    if not known:
         name, run = next(reversed(solved.runs.items()))
-        figures = Figures(before[contact.NAME].figures).of(source=name)
         words = f"{LABELS[name]} at {with_unit(run.finest.grid.pitch, 'm', 3)}"
-        for quantity in MAIN:
-            if mine := figures.of(quantity=quantity):
-                exact[quantity] = [figure.value for figure in mine]
-                floors[quantity] = max(figure.numerical for figure in mine)
+        figures = Figures(before[contact.NAME].figures).of(source=name)
+        every = {quantity: figures.of(quantity=quantity) for quantity in MAIN}
+        known = {name: ([f.value for f in mine], mine) for name, mine in every.items() if mine}
+    exact = {name: values for name, (values, _) in known.items()}
+    floors = {name: max(f.numerical for f in left) for name, (_, left) in known.items()}
     return words, exact, floors
 
 

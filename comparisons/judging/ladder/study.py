@@ -107,9 +107,10 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
     half-planes with some of the effects, where nothing cheaper holds, and the same effects in
     finite elements are not refuted."""
     rung, effects = partial(_rung, solved, budget), budget.selection.whole
-    made, analytic = [rung(*one) for one in _solved(solved, budget)], [HERTZ, HALF_PLANE]
+    made = [rung(*one) for one in _solved(solved, budget)]
     finest = (case.runs[HALF_PLANE].finest.solution.pressure for case in solved.cases)
     peak, every = max(float(pressure.max()) for pressure in finest), candidates.CANDIDATES
+    analytic = [HERTZ, HALF_PLANE, *(candidate.name for candidate in every)]
     for candidate in () if flow.beyond_doubt else every:  # and no model of the run does
         if any(one.verdict == "holds" for one in made if one.name in analytic):
             break
@@ -121,8 +122,7 @@ def rungs(solved: Solved, budget: ErrorBudget, flow: FlowAssessment, tasks: Task
             took = _took(next(iter(runs.values())))  # what all took together
             named = candidate.name, held, candidates.words_of(held)
             made.append(rung(*named, took, partial(_beside, runs)))
-            analytic.append(candidate.name)
-    order = [HERTZ, HALF_PLANE, *(candidate.name for candidate in every), *ELEMENTS, WHOLE]
+    order = [*analytic, *ELEMENTS, WHOLE]
 
     def place(one: Rung) -> int:
         return order.index(one.name if one.name in order else _dearest(one.effects))
@@ -221,7 +221,7 @@ def _dearest(effects: Iterable[str]) -> str:
 
 def _words_of_elements(effects: Iterable[str]) -> str:
     """The kind of finite elements that have the effects, and the linear ones beside it."""
-    kind, beside = _dearest(effects), set(effects) - set(NONLINEAR)
+    kind, beside = _dearest(effects), set(effects) - NONLINEAR
     words = ELEMENTS[kind] + " at finite deformation" * (kind == FLOW and FINITE in effects)
     beside = ", ".join(EFFECTS[name].label for name in EFFECTS if name in beside)
     return f"{words} with {beside}" if beside else words

@@ -113,32 +113,31 @@ class SplitVariants:
 
 def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
     """The variants at a friction coefficient, the same on every level."""
-    chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
-    quadratic = problem.scene.finite_element.element != STRAINED and bool(chosen & set(NONLINEAR))
+    nothing = frozenset()
+    still = {COUPLED} if friction == 0.0 else nothing  # what does nothing there
+    chosen = selection.whole - still
+    quadratic = problem.scene.finite_element.element != STRAINED and bool(chosen & NONLINEAR)
 
     def variant(effects: frozenset[str]) -> Model:
-        shaped = effects & {COUPLED, *NONLINEAR} or problem.scene.load.coupled
+        shaped = effects & (NONLINEAR | {COUPLED}) or problem.scene.load.coupled
         return model_with(problem, effects, friction if shaped else None, quadratic)
 
     def grown(effects: frozenset[str]) -> frozenset[str]:
         """Add what nonlinear bodies cannot be without."""
-        return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
+        return effects | ({COUPLED} if friction and effects & NONLINEAR else nothing)
 
-    nothing, pairs = frozenset(), {}
+    pairs = {}
     for name in EFFECTS:
         if name in chosen:
             beside = chosen & {COUPLED} if name in NONLINEAR else nothing
             pairs[name] = variant(grown(beside | {name})), variant(beside)
+    whole = small = variant(grown(chosen))
     if chosen.issuperset(NONLINEAR):  # what an elastic body would do at finite strain matters less
         small = variant(grown(chosen - {"finite_strain"}))
-        pairs["finite_strain"] = variant(grown(chosen)), small
-    of_scene = None
-    if quadratic:
-        of_scene = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
-    whole, increments = variant(grown(chosen)), ()
-    if FLOW in selection.added:
-        small = pairs["finite_strain"][1] if chosen.issuperset(NONLINEAR) else whole
-        increments = (*(replace(small, times=times) for times in LONGER), small)
+        pairs["finite_strain"] = whole, small
+    of_scene = variant(selection.contained - still) if quadratic else None
+    flows = FLOW in selection.added
+    increments = (*(replace(small, times=times) for times in LONGER), small) if flows else ()
     laws = law_variants(whole, selection.laws)
     return SplitVariants(whole, of_scene, variant(nothing), pairs, laws, increments)
 

@@ -129,7 +129,7 @@ class EffectRefinement:
     ) -> dict[Model, str]:
         """Make those that are new on a level known to the tasks; the keys of these."""
         new = [variant for variant in dict.fromkeys(asked) if self.is_open(variant, number)]
-        new.sort(key=lambda variant: not variant.effects & set(NONLINEAR))  # the dearest first
+        new.sort(key=lambda variant: not variant.effects & NONLINEAR)  # the dearest first
         keys, how = {}, (number, self._patches)
         for variant in new:
             self.expected.setdefault((variant, number), self.forecast(variant, number))
