@@ -20,24 +20,21 @@ from pathlib import Path
 
 import numpy as np
 
+from analytic.exact.hertz import HertzContact
+from analytic.material import dundurs_constants
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import InputError, SceneError, nearest
-from comparisons.models.posing import problem_of
 from comparisons.models.problem import Problem
-from comparisons.scenes.fields import plain
 from comparisons.scenes.profile import ProfileSection
-from comparisons.scenes.scene import Origin, Scene
-from comparisons.scenes.surface import surface_of
+from comparisons.scenes.scene import Scene
+from comparisons.scenes.surface import smooth_contact, surface_of
 
-# Fields of made profiles that are lengths along x, and the one that heights are proportional to.
-WAVES = {
-    "sinusoid": ("wavelength", "length"),
-    "self-affine": ("length", "shortest_wavelength", "longest_wavelength"),
-    "ground": ("length", "shortest_wavelength", "roll_off_wavelength", "longest_wavelength"),
-}
-HEIGHTS = {"sinusoid": ("amplitude",), "self-affine": ("rms_height",), "ground": ("rms_height",)}
+WAVY = "sinusoid", "self-affine", "ground"  # kinds of profiles whose waves can be stretched
+# Their fields that are lengths along x, and those that heights are proportional to.
+LENGTHS = ("length", "wavelength", "shortest_wavelength", "roll_off_wavelength")
+LENGTHS += ("longest_wavelength", "cutoff", "short_cutoff")
+HEIGHTS = "amplitude", "rms_height"
 SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
-FILTERS = ("cutoff", "short_cutoff")
 
 Changes = dict[str, object]  # values of a scene's fields by their names
 
@@ -62,25 +59,24 @@ class Group:
     straight: float = 1e-3
 
 
-def smooth_problem(scene: Scene) -> Problem:
+def _smooth(scene: Scene) -> HertzContact:
     """The smooth contact of half-planes under a scene's load, which groups refer to."""
-    body, load = scene.body, scene.load
-    if load.kind in ("approach", "mean_pressure"):
+    _refuse_load(scene, "mean_pressure")
+    return smooth_contact(scene)
+
+
+def _refuse_load(scene: Scene, kind: str) -> None:
+    if scene.load.kind == kind:
         raise SceneError(
-            f"{scene.source}: load.{load.kind}: is no load that groups can refer to; allowed for a "
+            f"{scene.source}: load.{kind}: is no load that groups can refer to; allowed for a "
             "map is per_length or hertz_peak_pressure"
         )
-    tables = {
-        "roller": plain(scene.roller),
-        "body": {"youngs_modulus": body.youngs_modulus, "poissons_ratio": body.poissons_ratio},
-        "load": {load.kind: load.value},
-    }
-    return problem_of(Scene.of(tables, Origin("smooth", source=scene.source)))
 
 
 def scene_with(scene: Scene, values: Mapping[str, float]) -> Scene:
     """The scene in which every named group has its value. Raises SceneError where it does not have
     what a group is about."""
+    _refuse_load(scene, "approach")
     draft, changes = scene, {}
     for name in sorted(values, key=lambda name: not GROUPS[name].early):
         section = GROUPS[name].section
@@ -88,7 +84,8 @@ def scene_with(scene: Scene, values: Mapping[str, float]) -> Scene:
             needed = f"is missing; allowed for its groups is [{section}]"
             raise SceneError(f"{scene.source}: {section}: {needed}")
         fields = GROUPS[name].set_to(draft, values[name])
-        draft, changes = draft.unchecked(fields), changes | fields
+        changes |= fields  # those that change a are checked before others take a from them
+        draft = scene.changed(changes) if GROUPS[name].early else draft.unchecked(fields)
     return scene.changed(changes | {"finite_element": finite_elements(scene, values)})
 
 
@@ -98,10 +95,6 @@ def finite_elements(scene: Scene, names: Iterable[str]) -> dict:
     for name in names:
         settings |= GROUPS[name].finite_element
     return settings
-
-
-def _half_width(scene: Scene) -> float:
-    return smooth_problem(scene).hertz.half_width
 
 
 def _size(name: str, problem: Problem) -> float:
@@ -118,7 +111,7 @@ def _wavelength(problem: Problem) -> float | None:
     profile = problem.scene.profile
     if profile is None:
         return None
-    made = profile.kind in WAVES
+    made = profile.kind in WAVY
     shortest = _shortest(profile) if made else shortest_wavelength(problem.surface.profile)
     return shortest / problem.hertz.half_width
 
@@ -132,7 +125,7 @@ def _shortest(profile: ProfileSection) -> float:
 
 
 def _set_size(name: str, scene: Scene, value: float) -> Changes:
-    return {f"body.{name}": _half_width(scene) / value}
+    return {f"body.{name}": _smooth(scene).half_width / value}
 
 
 def _set_radius(scene: Scene, value: float) -> Changes:
@@ -142,12 +135,13 @@ def _set_radius(scene: Scene, value: float) -> Changes:
             f"{scene.source}: roller: is elastic; allowed with a_over_radius, which needs finite "
             "deformation, is roller.rigid = true"
         )
-    peak = 0.5 * value * smooth_problem(scene).modulus
+    peak = 0.5 * value * _smooth(scene).combined_modulus
     return {"load.per_length": None, "load.hertz_peak_pressure": peak}
 
 
 def _set_friction(scene: Scene, value: float) -> Changes:
-    beta = abs(smooth_problem(scene).dundurs_beta)
+    _refuse_load(scene, "mean_pressure")
+    beta = abs(dundurs_constants(scene.body.material, scene.roller.material)[1])
     if beta == 0.0:
         raise SceneError(
             f"{scene.source}: body: has the roller's elastic constants, so that friction moves "
@@ -164,7 +158,7 @@ def _set_hardness(scene: Scene, value: float) -> Changes:
             f"{scene.source}: body.yield_stress: is missing; allowed with "
             "peak_pressure_over_hardness are body.hardness and body.yield_stress"
         )
-    factor = smooth_problem(scene).hertz.peak_pressure / value / body.hardness
+    factor = _smooth(scene).peak_pressure / value / body.hardness
     if body.hardening is not None:
         raise SceneError(
             f"{scene.source}: body.hardening: is given; allowed with peak_pressure_over_hardness "
@@ -184,10 +178,10 @@ def _set_modulus_ratio(scene: Scene, value: float) -> Changes:
 
 
 def _made_profile(scene: Scene, group: str) -> ProfileSection:
-    if scene.profile is None or scene.profile.kind not in WAVES:
+    if scene.profile is None or scene.profile.kind not in WAVY:
         raise SceneError(
             f"{scene.source}: profile: cannot be changed along {group}; allowed there is kind = "
-            + ", ".join(f'"{kind}"' for kind in WAVES)
+            + ", ".join(f'"{kind}"' for kind in WAVY)
         )
     return scene.profile
 
@@ -201,15 +195,15 @@ def _scaled(profile: ProfileSection, names: Iterable[str], factor: float) -> Cha
 def _set_wavelength(scene: Scene, value: float) -> Changes:
     """Scale the profile: x and heights by one factor, so that slopes stay."""
     profile, position = _made_profile(scene, "wavelength_over_a"), scene.load.position
-    factor = value * _half_width(scene) / _shortest(profile)
-    changes = _scaled(profile, (*WAVES[profile.kind], *HEIGHTS[profile.kind], *FILTERS), factor)
+    factor = value * _smooth(scene).half_width / _shortest(profile)
+    changes = _scaled(profile, (*LENGTHS, *HEIGHTS), factor)
     return changes if position is None else changes | {"load.position": position * factor}
 
 
 def _set_slope(scene: Scene, value: float) -> Changes:
     profile = _made_profile(scene, "rms_slope")
     factor = value / surface_of(scene, standard=False).info.roughness.rms_slope
-    return _scaled(profile, (*HEIGHTS[profile.kind], "rms_slope"), factor)
+    return _scaled(profile, (*HEIGHTS, "rms_slope"), factor)
 
 
 def _modulus_ratio(section: str, problem: Problem) -> float | None:
@@ -239,7 +233,7 @@ FUNCTIONS = {  # set_to, value_of
     ),
     "modulus_ratio": (_set_modulus_ratio, partial(_modulus_ratio, "roller")),
     "coating_over_a": (
-        lambda scene, value: {"coating.thickness": value * _half_width(scene)},
+        lambda scene, value: {"coating.thickness": value * _smooth(scene).half_width},
         lambda posed: (
             posed.scene.coating and posed.scene.coating.thickness / posed.hertz.half_width
         ),
@@ -308,7 +302,7 @@ def counts_of(text: str) -> tuple[int, int]:
 
 
 def usual_axes(scene: Scene) -> tuple[str, str]:
-    if scene.profile is not None and scene.profile.kind in WAVES:
+    if scene.profile is not None and scene.profile.kind in WAVY:
         return "wavelength_over_a", "rms_slope"
     if any(scene.load.friction) and scene.roller.rigid:
         return "a_over_thickness", "friction_dundurs"

@@ -213,11 +213,6 @@ class SceneSection(BaseModel):
         """Misfits to the rest of the scene: "section.field" to change, and what is wrong."""
         yield from ()
 
-    @classmethod
-    def followed(cls, tables: Mapping) -> Mapping:
-        """A scene's tables, as TOML has them, with what this section leaves to others."""
-        return tables
-
     def completed(self, scene: "SceneSection") -> Self:
         """Fill in the fields that it leaves out and that follow from the rest of the scene."""
         return self

@@ -16,7 +16,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Self
 
-from pydantic import PrivateAttr, ValidationError, create_model, model_validator
+from pydantic import PrivateAttr, ValidationError, create_model
 
 import comparisons.scenes.studies as of_studies
 from comparisons.common.cache import types_in
@@ -223,13 +223,6 @@ class SceneBase(SceneSection):
     def sections(self) -> Iterator[tuple[str, SceneSection]]:
         """The sections that the scene has, but for those of which there may be several."""
         return ((name, part) for name, part in self if isinstance(part, SceneSection))
-
-    @model_validator(mode="before")
-    @classmethod
-    def _follow(cls, tables: object) -> object:
-        for section in sections_of(cls).values() if isinstance(tables, Mapping) else ():
-            tables = section.followed(tables)
-        return tables
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         for _, section in self.sections():

@@ -1,7 +1,7 @@
 """The [heat] section: sliding speed, and how both bodies conduct the heat of friction."""
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Literal
+from collections.abc import Iterator
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, StrictBool
 
@@ -16,7 +16,7 @@ from comparisons.common.units import (
     TEMPERATURE,
 )
 from comparisons.scenes.fields import Fraction, Length, Number, SceneSection, optional
-from comparisons.scenes.materials import solid_named
+from comparisons.scenes.materials import solids
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, gt=0.0)]
 Density = Annotated[float, Number(DENSITY, gt=0.0)]
@@ -36,12 +36,12 @@ class HeatSection(SceneSection):
         "contact stays on the body, 2: on the roller",
         2.0,
     )
-    body_conductivity: Conductivity = Field(description="of the rough body")
-    body_density: Density = Field(description="of the rough body")
-    body_specific_heat: SpecificHeat = Field(description="of the rough body")
-    roller_conductivity: Conductivity = Field(description="of the roller")
-    roller_density: Density = Field(description="of the roller")
-    roller_specific_heat: SpecificHeat = Field(description="of the roller")
+    body_conductivity: Conductivity | None = optional("of the rough body")
+    body_density: Density | None = optional("of the rough body")
+    body_specific_heat: SpecificHeat | None = optional("of the rough body")
+    roller_conductivity: Conductivity | None = optional("of the roller")
+    roller_density: Density | None = optional("of the roller")
+    roller_specific_heat: SpecificHeat | None = optional("of the roller")
     coating_conductivity: Conductivity | None = optional("needed with `[coating]`")
     coating_density: Density | None = optional("needed with `[coating]`")
     coating_specific_heat: SpecificHeat | None = optional("needed with `[coating]`")
@@ -60,23 +60,17 @@ class HeatSection(SceneSection):
     body_expansion: Expansion | None = optional("needed with `stresses`")
     coating_expansion: Expansion | None = optional("needed with `stresses` and `[coating]`")
 
-    @classmethod
-    def followed(cls, tables: Mapping) -> Mapping:
+    def completed(self, scene: SceneSection) -> Self:
         """Fill in the constants of bodies that are named after a solid; expansions where stresses
         are asked for."""
-        heat, follows = tables.get("heat"), {}
-        if not isinstance(heat, Mapping):
-            return tables
-        for body in ("body", "roller", "coating"):
-            section = tables.get(body)
-            solid = solid_named(section.get("material")) if isinstance(section, Mapping) else None
-            names = CONSTANTS
-            if heat.get("stresses") is True and body != "roller":
-                names = (*CONSTANTS, "expansion")
-            for constant in names if solid is not None else ():
-                if constant in solid.values:
-                    follows[f"{body}_{constant}"] = solid.values[constant].value
-        return {**tables, "heat": {**follows, **heat}}
+        follows = {}
+        for body, section in scene.elastic_sections.items():
+            known = solids()[section.solid].values if section.solid else {}
+            more = ("expansion",) if self.stresses and body != "roller" else ()
+            for constant in known.keys() & {*CONSTANTS, *more}:
+                if getattr(self, f"{body}_{constant}") is None:
+                    follows[f"{body}_{constant}"] = known[constant].value
+        return self.model_copy(update=follows)
 
     @property
     def velocities(self) -> tuple[float, float]:
@@ -112,10 +106,11 @@ class HeatSection(SceneSection):
         if self.base is not None and scene.body.thickness is None:
             unbounded = "is given for a half-plane, which has none"
             yield "heat.base", f"{unbounded}; allowed with body.thickness"
-        needed = {f"coating_{constant}": coated for constant in CONSTANTS}
+        needed = dict.fromkeys(self.FOLLOW, True)
+        needed |= {f"coating_{constant}": coated for constant in CONSTANTS}
         needed |= {"body_expansion": self.stresses, "coating_expansion": self.stresses and coated}
         for name, is_needed in needed.items():
-            is_there = getattr(self, name) is not None
+            is_there = getattr(self.completed(scene), name) is not None
             if is_there and name.startswith("coating") and not coated:
                 yield f"heat.{name}", "is given for a body without one; allowed with [coating]"
             elif is_there and not is_needed:

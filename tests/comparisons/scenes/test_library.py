@@ -2,9 +2,16 @@
 
 import numpy as np
 import pytest
-from scenes import MEASURED, PROJECT, compared_verdicts, half_plane_at, judging, run_of
+from scenes import (
+    MEASURED,
+    PROJECT,
+    compared_verdicts,
+    finite_elements,
+    half_plane_at,
+    judging,
+    run_of,
+)
 
-from analytic.grid import HatGrid
 from comparisons.common.errors import ExitStatus
 from comparisons.common.numbers import percent_as_written, rounded_up
 from comparisons.common.progress import Stages
@@ -14,7 +21,6 @@ from comparisons.judging.model_error.show import not_modelled_line
 from comparisons.judging.rule import relative_l2, values_of
 from comparisons.judging.verdict.headline import kind_of, within_of
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
-from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.posing import problem_of
 from comparisons.models.problem import Levels
@@ -96,39 +102,25 @@ class TestGroundUnrun:
 
 
 def test_the_independent_solver_agrees_on_a_rough_scene():
-    """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
-    from analytic.contact.defect_correction import solve_with_model
-    from analytic.contact.patches import contact_patches
-    from analytic.operators.half_plane import HalfPlane
+    """Our iteration on the compliance, and PETSc's variational inequality on the whole system. Of
+    two equal blocks the first has one, with twice its compliance, the second the same one twice."""
+    from fem.body.surface import hat_forces
     from fem.contact.variational_inequality import solve_variational_inequality
 
     problem = problem_of(Scene.read("sinusoid"))
-    grid: HatGrid = problem.grid(problem.pitches[0])
-    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-    level = half_plane_at(problem, grid.pitch)
-    patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
-    assert len(patches) >= 5
-    bodies = bodies_of(problem, Refinement(grid.pitch), patches, Stages(), BodyCache())
-    operator = mutual_compliance(problem, bodies, grid)
-    one = solve_with_model(
-        operator,
-        HalfPlane(grid.count, grid.pitch, problem.modulus),
-        weighted_gap,
-        grid.weights,
-        problem.constraints(),
-        tolerance=1e-10,
-    )
-    # two equal blocks: the same body twice in one system
-    [part] = operator.parts
-    assert part.factor == 2.0
+    level = finite_elements(problem)
+    grid, pressure = level.grid, level.solution.pressure
+    assert len(level.patches) >= 5
+    bodies = bodies_of(problem, Refinement(grid.pitch), level.patches, Stages(), BodyCache())
+    assert (bodies.roller, bodies.roller_share) == (None, 1.0)
     other = solve_variational_inequality(
-        [(bodies.rough, part.compliance.normal), (bodies.rough, part.compliance.normal)],
-        weighted_gap,
+        [(bodies.rough, hat_forces(bodies.rough.surface, grid.hats))] * 2,
+        grid.hat_integrals(problem.gap, problem.knots),
         grid.weights,
         problem.hertz.load_per_length,
     )
-    assert other.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
-    assert grid.weights @ other.pressure == pytest.approx(one.load, rel=1e-6)
+    assert other.pressure == pytest.approx(pressure, abs=1e-6 * pressure.max())
+    assert grid.weights @ other.pressure == pytest.approx(level.solution.load, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
