@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from analytic.numerics import check_positive
+
 LAWS = ("neo-hookean", "hencky", "st-venant-kirchhoff", "murnaghan")
 
 
@@ -78,9 +80,7 @@ class ThermalMaterial:
     specific_heat: float
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not (np.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name} must be positive and finite, not {value:g}")
+        check_positive(**vars(self))
 
     @property
     def diffusivity(self) -> float:
