@@ -17,7 +17,6 @@ pitches. There the stress at the surface under traction is right to 0.2 % of the
 4 % (20 pitches to a half-width) or to 0.06 % in place of 2 % (80)."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +24,7 @@ from scipy.fft import dst
 
 from analytic.contact.smooth_pressure import contact_ends, curves_between, nodal_values
 from analytic.stress.elements import FrictionStress
+from analytic.stress.periodic import ImageStress
 from analytic.stress.potential import power_series, stresses
 from analytic.stress.tree import LoadedLine, tree_stress
 from analytic.stress_state import StressState
@@ -65,15 +65,18 @@ class SmoothPatch:
 
 @dataclass(frozen=True)
 class EndStress:
-    """The stresses that hats at x_nodes (n,) [m] with pressures (n,) [Pa] leave out."""
+    """The stresses that hats at x_nodes (n,) [m] with pressures (n,) [Pa] leave out; those of three
+    periods lack the other periods' `images`, and a stress `along` x [Pa], too."""
 
     x_nodes: np.ndarray
     pressure: np.ndarray
     patches: tuple[SmoothPatch, ...]
-    along: ClassVar[float] = 0.0  # as of `analytic.stress.elements.FrictionStress`
+    images: ImageStress | None = None
+    along: float = 0.0  # as of `analytic.stress.elements.FrictionStress`
 
     def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
-        """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z >= 0 [m]; 0 far from ends."""
+        """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z >= 0 [m], but for `along`;
+        without images 0 far from ends."""
         x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
         pitch, change = self.x_nodes[1] - self.x_nodes[0], np.zeros((4, *x.shape))
         for patch in self.patches:
@@ -83,11 +86,11 @@ class EndStress:
                 inside, at = slice(patch.first, patch.last + 1), (x[near], z[near])
                 hats = LoadedLine(self.x_nodes[inside], self.pressure[inside], pitch)
                 change[:, near] += patch.parts(*at) - tree_stress(hats, *at)
-        return change
+        return change if self.images is None else change + self.images.parts(x, z)
 
     def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
         """Stresses [Pa] at x, z [m] under p and q = friction * p."""
-        return FrictionStress.of(self.parts(x, z)).at(friction)
+        return FrictionStress.of(self.parts(x, z), self.along).at(friction)
 
 
 def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> EndStress:

@@ -20,7 +20,6 @@ the difference is the same everywhere (`held_along`).
 
     L   period [m]        p, pm   pressure and its mean [Pa]        nu   Poisson's ratio"""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,9 +29,7 @@ from numpy.typing import ArrayLike
 from scipy.special import zeta
 
 from analytic.grid import HatGrid
-from analytic.stress.elements import FrictionStress
 from analytic.stress.potential import stresses
-from analytic.stress_state import StressState
 
 FORCES = 20  # at poles twice as far as the ends of the period: 5.8^-20 is below 1e-15
 TERMS = 30  # of the series, up to |u| = SERIES: (1.3/2)^60 is below 1e-11, of a part of 1e-5
@@ -104,21 +101,3 @@ def far_kernel(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         value[~near] -= 1.0 / (np.pi * (far - image))
         slope[~near] += 1.0 / (np.pi * (far - image) ** 2)
     return value, slope
-
-
-@dataclass(frozen=True)
-class PeriodicRest:
-    """Stresses that the hats of three periods leave out: those of the other periods, a stress
-    `along` x [Pa], and `ends`, as (4, …) of x and z [m], of contact."""
-
-    ends: Callable[[ArrayLike, ArrayLike], np.ndarray]
-    images: ImageStress
-    along: float
-
-    def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
-        """See `ImageStress`; all but `along`."""
-        return self.ends(x, z) + self.images.parts(x, z)
-
-    def stress(self, friction: ArrayLike, x: ArrayLike, z: ArrayLike) -> StressState:
-        """Stresses [Pa] at x, z [m] under p and q = friction * p."""
-        return FrictionStress.of(self.parts(x, z), self.along).at(friction)

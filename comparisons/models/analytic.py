@@ -22,7 +22,6 @@ from analytic.layers.stress import AddedStress
 from analytic.material import Material
 from analytic.stress.field import StressField
 from analytic.stress.maxima import stress_maxima
-from analytic.stress.periodic import PeriodicRest
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.crest import unresolved_crest
@@ -125,7 +124,7 @@ class _Side:
     material: Material
     added: AddedStress | None
     below: bool
-    rest: EndStress | PeriodicRest  # what hats leave out
+    rest: EndStress  # what hats leave out
     searched: Window  # from which extremes are searched
 
     def beside(self, friction: ArrayLike, x: np.ndarray, z: np.ndarray) -> StressState:

@@ -14,7 +14,7 @@ from analytic.grid import HatGrid
 from analytic.stress.elements import FrictionStress
 from analytic.stress.field import FrictionField, friction_field
 from analytic.stress.maxima import stress_maxima
-from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
+from analytic.stress.periodic import ImageStress, held_along
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import Level
@@ -62,14 +62,14 @@ def left_out_at_ends(
     return left
 
 
-def beside_hats(problem: Problem, level: Level) -> EndStress | PeriodicRest:
+def beside_hats(problem: Problem, level: Level) -> EndStress:
     """Stresses that the hats of a level, on three periods of a periodic surface, leave out."""
     ends, grid = ends_of(problem, level.grid, level.solution), level.grid
     if not grid.periodic:
         return ends
     pressure, nu = level.solution.pressure, problem.scene.body.poissons_ratio
-    images = ImageStress(grid, pressure)
-    return PeriodicRest(ends.parts, images, held_along(float(pressure.mean()), nu))
+    along = held_along(float(pressure.mean()), nu)
+    return replace(ends, images=ImageStress(grid, pressure), along=along)
 
 
 def hats_field(grid: HatGrid, pressure: np.ndarray, points: Window) -> FrictionField:
@@ -101,7 +101,7 @@ def largest_tau1(
     return Extremum.highest(maxima["tau1"])
 
 
-def field_on(level: Level, points: Window, ends: EndStress | PeriodicRest) -> FrictionField:
+def field_on(level: Level, points: Window, ends: EndStress) -> FrictionField:
     """Stresses at a window's points, those next to the ends of contact included."""
     field = hats_field(level.grid, level.solution.pressure, points)
     beside = ends.parts(field.x, field.z[:, None])

@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 
 from analytic.grid import HatGrid
-from analytic.stress.periodic import ImageStress, PeriodicRest, held_along
+from analytic.stress.periodic import ImageStress, held_along
 from analytic.stress.points import friction_stress_at
 
 PERIOD, NU = 2.3e-3, 0.3
 
 
 def below(grid: HatGrid, pressure: np.ndarray, x: np.ndarray, z: np.ndarray):
-    rest = PeriodicRest(lambda x, z: 0.0, ImageStress(grid, pressure), 0.0)
     near = friction_stress_at(grid.unfolded_x, grid.unfolded(pressure), x, z)
-    return np.array(near.plus(rest.parts(x, z)).parts)
+    return np.array(near.plus(ImageStress(grid, pressure).parts(x, z)).parts)
 
 
 def by_waves(grid: HatGrid, pressure: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
