@@ -10,7 +10,7 @@ from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
-from fem.contact.rigid_roller import Roller
+from fem.contact.rigid_roller import Roller, circle
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic
@@ -105,6 +105,19 @@ def press_linearly(
     state = ContactState((moved,), start, approach=0.0)
     weights = 0.5 * (hats[2:] - hats[:-2])
     return solve_nonlinear_contact(bodies, gap, weights, state, load).state
+
+
+def under_a_circle(
+    body: ElasticBody, hats: np.ndarray, curvature: float, load: float, /, **wanted: float | None
+) -> tuple[ContactState, FiniteDeformation]:
+    """A body under a rigid roller on half-width 1 by Hertz: a parabola by the linear theory, and
+    the circle by `press_finitely`; `wanted` in place of the load."""
+    x, pitch = hats[1:-1], hats[1] - hats[0]
+    gap = 0.5 * pitch * curvature * (x**2 + pitch**2 / 6.0)
+    hertz = 2.0 / np.pi * load * np.sqrt(np.maximum(1.0 - x**2, 0.0))
+    linear = press_linearly(body, hats, gap, hertz, load)
+    wanted = {"load": load} | wanted
+    return linear, press_finitely(body, hats, circle(1.0 / curvature), linear.pressure, **wanted)
 
 
 def dense_contact(matrix: np.ndarray, gap: np.ndarray, weights: np.ndarray, load: float):

@@ -204,10 +204,11 @@ def run_of(
 def _solved_once(
     model: "Model", solve: Callable, here: object, problem: "Problem", pitch: float, stages: object
 ) -> dict[float, "Level"]:
-    """Levels that `solve`, the model's own, has solved once: neither how a scene is judged nor the
-    time that it is given changes them."""
+    """Levels that `solve`, the model's own, has solved once: neither how a scene is judged, what it
+    is held against nor the time that it is given changes them."""
     tables = problem.scene.tables
-    tables = {n: t for n, t in tables.items() if n not in ("title", "tolerance", "budget")}
+    others = "title", "tolerance", "budget", "answers"
+    tables = {n: t for n, t in tables.items() if n not in others}
     # effects of finite elements are the scene's
     effects = sorted(model.effects) if model.solver == "analytic" else []
     fields = model.fields and problem.window is not None

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scenes import finite_elements, problem
+from scenes import finite_elements, problem, run_of
 
 import comparisons as crosscheck
 from comparisons.api import scene_of
@@ -167,15 +167,15 @@ def test_model_errors_under_friction_are_within_what_a_run_states():
         "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "law": "neo-hookean"},
         "load": {"hertz_peak_pressure": 0.018 * 210e9, "friction": 0.3, "coupled": True},
         "finite_element": {"plastic": False},
-        "stress": {},
+        "stress": {"points": [60, 20]},
     }
-    run = crosscheck.run(tables)
-    result = on_a_flat(run.outcome.problem.hertz.load_per_length, 0.3)
+    run = run_of(tables)
+    result = on_a_flat(run.problem.hertz.load_per_length, 0.3)
     for quantity in ("peak_pressure", "contact_length", "tau1_max"):
         name, unit = cases.QUANTITIES[quantity]
-        half_plane = run.figure(quantity, "half_plane").value
-        stated = run.figure(quantity, "half_plane", "model_error")
-        error = half_plane / (getattr(result, name) * unit) - 1.0
+        figures = run.figures.of(quantity=quantity, source="half_plane")
+        half_plane, stated = (figures.one(study=name) for name in ("contact", "model_error"))
+        error = half_plane.value / (getattr(result, name) * unit) - 1.0
         assert stated.value == pytest.approx(error, abs=stated.total)
         assert stated.total < 0.02
 

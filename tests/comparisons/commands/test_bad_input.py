@@ -163,12 +163,6 @@ def test_control_characters_of_a_name_are_shown_harmless(folder, complaint):
     assert "\x1b" not in line and r"\x1b[31m.toml" in line
 
 
-def test_a_scene_does_not_replace_its_profile(folder, complaint):
-    (folder / "trace.toml").write_text(TRACE)
-    assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
-    assert "is the profile itself" in complaint("init", "trace.toml", "--force")
-
-
 def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path):
     (tmp_path / "trace.csv").write_text("x [µm],z [µm]\n" + TRACE.partition("\n")[2])
     asked = "-m", "comparisons.cli", "init", "trace.csv"

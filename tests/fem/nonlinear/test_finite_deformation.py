@@ -6,7 +6,7 @@ Lengths in half-widths of the contact that Hertz expects, stresses in Young's mo
 import numpy as np
 import pytest
 from nodal_stress import nodal_stress
-from pressed_bodies import press_finitely, press_linearly
+from pressed_bodies import press_finitely, press_linearly, under_a_circle
 from scenes import hat_nodes
 
 from analytic.exact.westergaard import westergaard_from_mean_pressure
@@ -48,17 +48,8 @@ def body():
     return make()
 
 
-def linear(body, curvature, load, friction=0.0):
-    """The linear theory's pressure and displacement for a parabola, on the same hats."""
-    gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
-    return press_linearly(body, HATS, gap, peak(curvature) * HERTZ, load, friction)
-
-
 def pressed(body, curvature, **wanted):
-    load = 0.5 * np.pi * peak(curvature)
-    start = linear(body, curvature, load)
-    wanted = {"load": load} | wanted
-    return start, press_finitely(body, HATS, circle(1.0 / curvature), start.pressure, **wanted)
+    return under_a_circle(body, HATS, curvature, 0.5 * np.pi * peak(curvature), **wanted)
 
 
 def test_newton_converges_quadratically(body):
@@ -172,7 +163,8 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
     """Coupled there too: a rigid roller on a body that is not incompressible."""
     curvature, friction = 0.005, 0.3
     load = 0.5 * np.pi * peak(curvature)
-    rest = linear(body, curvature, load, friction)
+    gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
+    rest = press_linearly(body, HATS, gap, peak(curvature) * HERTZ, load, friction)
     one, other = (
         press_finitely(
             body, HATS, circle(1.0 / curvature), rest.pressure, load=load, friction=sense * friction

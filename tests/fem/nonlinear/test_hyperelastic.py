@@ -12,6 +12,7 @@ from scipy.linalg import logm
 
 from analytic.material import LAWS, Law, Material
 from analytic.material.hardening import Hardening
+from fem.body.coating import Coating
 from fem.body.elasticity import Support, elastic_body
 from fem.body.surface import straight_down
 from fem.body.triangle import collapsed_gauss, jacobians
@@ -290,17 +291,25 @@ def test_stress_and_tangent_are_derivatives_of_the_strain():
     np.testing.assert_allclose(tangent, tangent.transpose(0, 2, 1), atol=1e-12)
 
 
-def made(height=None):
-    mesh = structured_block(np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5), height, seed=2)
-    return elastic_body(mesh, HENCKY, Support("bonded", "free"))
+def made(height=None, coating=None):
+    seed = None if coating else 2  # which moves vertices off the coating's lower side
+    mesh = structured_block(np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5), height, seed)
+    return elastic_body(mesh, HENCKY, Support("bonded", "free"), coating=coating)
 
 
-@pytest.mark.parametrize("height", [None, lambda x: 0.05 * np.cos(3.0 * x)])
-def test_below_yield_it_is_henckys_law(monkeypatch, height):
+HARD = Material(500.0, 0.2, Law("hencky"))
+
+
+@pytest.mark.parametrize(
+    ("height", "coating"),
+    [(None, None), (lambda x: 0.05 * np.cos(3.0 * x), None), (None, Coating(HARD, 0.25))],
+    ids=["flat", "curved", "coated"],
+)
+def test_below_yield_it_is_henckys_law(monkeypatch, height, coating):
     """Forces, tangents and stresses of dolfinx's energy at the same three points, to rounding; its
     tangent differs by the terms that the series of its energy leaves out."""
     monkeypatch.setattr(hyperelastic, "quadrature_degree", lambda *_: 2)
-    body = made(height)
+    body = made(height, coating)
     metal = FinitePlasticBody(body, ElasticPlastic(HENCKY, Hardening(1e4)))
     law, at, free = HyperelasticBody(body), moved(body, 0.06, 1), ~body.held.ravel()
     (force, tangent), (wanted, exact) = metal.linearised(at), law.linearised(at)
@@ -311,6 +320,9 @@ def test_below_yield_it_is_henckys_law(monkeypatch, height):
     assert off.max() < 2e-12 * abs(exact).max()
     inside, across = metal.stress(at, metal.state)
     lame, shear = HENCKY.lame_constants
+    if coating:
+        pairs = zip(HARD.lame_constants, HENCKY.lame_constants, strict=True)
+        lame, shear = (np.repeat(np.where(body.coated, *pair), 3) for pair in pairs)
     stress = cauchy_stress(metal.gradient(at), shear, lame, HENCKY.law)
     np.testing.assert_allclose(np.column_stack([inside, across]), stress, atol=1e-11)
 

@@ -90,12 +90,8 @@ def test_stresses_far_from_a_rough_load_do_not_feel_its_roughness(rng):
     error = recovered_stress(body, moved, load) - exact
     assert np.abs(error[far]).max() < 1e-10 * np.abs(exact).max()
 
-    flat = Kinks(np.array([-1.0, 0.0, 1.0]) + 0j, np.ones(3) + 0j, np.array([-1.0, 2.0, -1.0]) + 0j)
-    every, count = np.arange(len(x)), len(x)
-    all_of = Weights(0 * every, 3 * np.arange(count + 1), np.ones(3 * count))
-    where = all_of, every, body.nodes, every[:, None]
-    moved = flat.displacement(*where, nu)[:, 0] / MATERIAL.shear_modulus
-    error = recovered_stress(body, moved, load) - flat.stress(*where)[:, 0]
+    flat = hat(0.0)
+    error = recovered_stress(body, displacement(flat, body.nodes), load) - stress(flat, body.nodes)
     assert (np.abs(error).max(axis=1) * np.pi * np.hypot(x, z))[far].max() < 0.05
 
 
@@ -284,10 +280,7 @@ def test_the_kinks_exert_the_load():
     body = elastic_body(mesh, Material(1.0, 0.3), Support())
     load = SurfaceLoad(body, hats, pressure, 0.25, lambda x: (0.1 + 0.0 * x, np.ones_like(x)))
     x = np.array([-0.8, -0.5, -0.2, 0.3, 0.7])
-    place, every = np.column_stack([x, rise * x]), np.arange(len(x))
-    count = len(load.kinks.place)
-    weights = Weights(0 * every, count * np.arange(len(x) + 1), np.ones(count * len(x)))
-    sx, sz, txz = load.kinks.stress(weights, every, place, every[:, None])[:, 0].T
+    sx, sz, txz = stress(load.kinks, np.column_stack([x, rise * x])).T
     n = normal(load.tangent(x))
     force = np.column_stack([sx * n[:, 0] + txz * n[:, 1], txz * n[:, 0] + sz * n[:, 1]])
     applied = np.interp(x, hats, [0.0, *pressure, 0.0])[:, None] * [0.1 + 0.25, 1.0 - 0.25 * 0.1]

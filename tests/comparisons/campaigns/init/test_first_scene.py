@@ -285,6 +285,8 @@ def test_json(folder, capsys):
         ("trace.csv", rows(X, Z).encode(), ["--row", "1"], "is a line scan"),
         ("trace.csv", rows(X, Z).encode(), ["--out", "no/scene.toml"], "no is no folder"),
         ("trace.csv", rows(X, Z).encode(), ["--out", "trace.csv", "--force"], "the profile itself"),
+        ("trace.toml", NAMED, [], "is the profile itself; allowed is another --out"),
+        ("trace.toml", NAMED, ["--force"], "is the profile itself"),
         ("trace.csv", rows(1e-3 * X[:9], Z[:9]).encode(), ["--x-unit", "um", "--z-unit", "um"],
          "trace.csv: load"),
         ("trace.csv", None, ["--radius", "4 N"], "--radius: is "),

@@ -71,6 +71,10 @@ class Page(HTMLParser):
         if "td" in self.open_tags and self.open_tags[-1] == "span":
             self.tables[-1][-1][-1] += f" | {data}"
 
+    def values(self, name: str, *tags: str) -> list[str]:
+        """Values of the attribute of that name, of all tags or of these."""
+        return [v for tag, n, v in self.attributes if n == name and (not tags or tag in tags)]
+
     def count(self, word: str) -> int:
         """Number of pictures whose words for them hold this one."""
         return sum(word in image["alt"] for image in self.images)

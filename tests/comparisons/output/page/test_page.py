@@ -38,10 +38,9 @@ def test_nothing_is_loaded_from_anywhere(wavy_page):
 
 def test_contents_lead_to_every_section_and_each_heading_has_a_name(wavy_page, half_plane_page):
     for page in (wavy_page, half_plane_page):
-        names = [value for _, name, value in page.attributes if name == "id"]
+        names = page.values("id")
         assert len(names) == len(set(names))
-        links = [value for tag, name, value in page.attributes if (tag, name) == ("a", "href")]
-        inside = [link for link in links if link.startswith("#")]
+        inside = [link for link in page.values("href", "a") if link.startswith("#")]
         assert inside == [f"#{section}" for section in page.sections]
         every, named = (re.findall(head, page.source) for head in ("<h[23]", "<h3 id=|<h2>"))
         assert len(every) == len(named)
@@ -49,13 +48,12 @@ def test_contents_lead_to_every_section_and_each_heading_has_a_name(wavy_page, h
 
 
 def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
-    links = [value for tag, name, value in wavy_page.attributes if tag == "a" and name == "href"]
     texts = [
         base64.b64decode(link.partition(",")[2]).decode()
-        for link in links
+        for link in wavy_page.values("href", "a")
         if link.startswith("data:text/csv;")
     ]
-    names = [value for tag, name, value in wavy_page.attributes if name == "download"]
+    names = wavy_page.values("download")
     assert len(texts) == len(names) >= 6 and all(name.endswith(".csv") for name in names)
     tables = [list(csv.reader(text.splitlines())) for text in texts]
     named = list(zip(names, tables, strict=True))
@@ -79,11 +77,7 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
 
 
 def test_no_script_runs(wavy_page):
-    [policy] = [
-        value
-        for tag, name, value in wavy_page.attributes
-        if (tag, name) == ("meta", "content") and "default-src" in value
-    ]
+    [policy] = [value for value in wavy_page.values("content", "meta") if "default-src" in value]
     assert policy == "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
     assert wavy_page.scripts == []
 

@@ -35,7 +35,8 @@ def curve(tmp_path, hertz) -> Callable[..., dict]:
 def answered() -> Callable[..., Run]:
     """`answered(section)`: the half-plane of a smooth contact beside one answer, "other"."""
 
-    def solved(section: dict, models=("half_plane",), out: Path | None = None, **changes):
-        return run(resolved(QUICK | changes | {"answers": {"other": section}}), out, models)
+    def solved(section: dict, out: Path | None = None, **changes):
+        scene = resolved(QUICK | changes | {"answers": {"other": section}})
+        return run(scene, out, ("half_plane",))
 
     return solved

@@ -2,18 +2,20 @@
 explains a difference is named, and nothing is where it does not."""
 
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from rich.console import Console
-from scenes import QUICK, resolved
+from scenes import QUICK, run_of
 
 from analytic.exact.hertz import hertz_from_load
+from comparisons.common.progress import no_progress
 from comparisons.output.flat_csv import tidy_rows
 from comparisons.output.result import read_result
 from comparisons.output.terminal import summary
 from comparisons.runs.rerun import rerun
-from comparisons.runs.run import run
+from comparisons.runs.write import write_files
 from comparisons.studies.answers.answer import Answer
 from comparisons.studies.answers.show import answer_verdict
 from comparisons.studies.answers.study import CONDITIONS, HINTS, VALIDATION
@@ -80,11 +82,12 @@ def test_three_per_cent_more_differ(answered, curve):
     assert "only answers from outside were compared" in printed
 
 
-def test_own_finite_elements_field_agrees(answered, tmp_path, undrawn):
+def test_own_finite_elements_field_agrees(tmp_path, undrawn):
     """It is read as any code's file: from the mesh, and compared with values off its nodes."""
-    run(resolved(QUICK), tmp_path / "own", ("finite_element",))
+    own = replace(run_of(QUICK, "finite_element"), directory=tmp_path / "own")
+    write_files(own, no_progress)
     section = {"file": str(tmp_path / "own/finite_element/stress.vtu")}
-    outcome = answered(section, ("finite_element",))
+    outcome = run_of(QUICK | {"answers": {"other": section}}, "finite_element")
     assert set(verdicts(outcome)) == {"peak_pressure", "contact_length", "tau1_max"}
     assert set(verdicts(outcome).values()) == {"agree"}
     assert row(outcome, "tau1_l2").value < 0.005

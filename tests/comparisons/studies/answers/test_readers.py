@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 import sys
+import tomllib
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -10,41 +11,16 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
-from scenes import QUICK, problem
+from scenes import QUICK, problem, resolved
 
 from analytic.exact.hertz import hertz_stress
+from comparisons.campaigns.decks.write import make_deck
 from comparisons.common.errors import InputError
 from comparisons.scenes.scene import Scene
 from comparisons.scenes.studies.answers import answers_named
 from comparisons.studies.answers.meshes import _write_faces
 from comparisons.studies.answers.read import read_answers
 from meshes.block import structured
-
-# CalculiX, in mm and MPa, y up: half a plane in plane strain under a pressure on its top.
-DECK = """*NODE
-{nodes}
-*ELEMENT,TYPE=CPE6,ELSET=BODY
-{elements}
-*NSET,NSET=HELD
-{held}
-*MATERIAL,NAME=STEEL
-*ELASTIC
-210000.,0.3
-*SOLID SECTION,ELSET=BODY,MATERIAL=STEEL
-1.
-*BOUNDARY
-HELD,1,2
-"""
-STEP = """*STEP
-*STATIC
-*DLOAD
-{loads}
-*NODE FILE{flag}
-U
-*EL FILE{flag}
-S
-*END STEP
-"""
 
 
 @pytest.fixture(scope="module")
@@ -152,50 +128,24 @@ def test_the_roller_in_the_same_file_is_left_out(mesh, stress, hertz, tmp_path):
     holds(read(section), hertz, near=2e-3)
 
 
-@pytest.fixture(scope="module")
-def solved_by_calculix(mesh, hertz, tmp_path_factory):
-    """`solved_by_calculix(flag)`: the result file of a pressed body."""
+@pytest.mark.parametrize("output", ["OUTPUT=2D", "OUTPUT=3D"])
+def test_a_result_of_calculix(hertz, tmp_path, output):
+    """Of a deck in two steps, half of the load and all of it: the last, unless another is asked
+    for. Results are in the plane, or on the layer of wedges that CalculiX solves."""
     if shutil.which("ccx") is None:
         pytest.skip("no CalculiX: apt-get install calculix-ccx")
     pytest.importorskip("pyvista_frd", reason="no pyvista-frd-reader: pip install")
-    x, y = 1e3 * mesh.points[:, 0], -1e3 * mesh.points[:, 1]
-    triangles = mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
-    loads, halves = [], []
-    for face, ends in enumerate(((0, 1), (1, 2), (2, 0)), 1):
-        on_top = np.flatnonzero(np.all(y[triangles[:, ends]] > -1e-9, axis=1))
-        for element in on_top:  # the mean over an edge, which keeps the load
-            start, stop = np.sort(x[triangles[element, ends]]) / 1e3
-            mean = hertz.pressure(np.linspace(start, stop, 2001)).mean()
-            if mean:
-                loads.append(f"{element + 1},P{face},{mean / 1e6:.9g}")
-                halves.append(f"{element + 1},P{face},{mean / 2e6:.9g}")
-    held = np.flatnonzero((np.abs(x) > x.max() - 1e-9) | (y < y.min() + 1e-9))
-    content = {
-        "nodes": "\n".join(
-            f"{i},{a:.12g},{b:.12g}" for i, (a, b) in enumerate(zip(x, y, strict=True), 1)
-        ),
-        "elements": "\n".join(
-            ",".join(map(str, (i, *nodes))) for i, nodes in enumerate(triangles + 1, 1)
-        ),
-        "held": "\n".join(str(node + 1) for node in held),
-    }
-
-    def solved(flag):
-        folder = tmp_path_factory.mktemp("ccx")
-        steps = (STEP.format(flag=flag, loads="\n".join(lines)) for lines in (halves, loads))
-        (folder / "job.inp").write_text(DECK.format(**content) + "".join(steps))
-        subprocess.run(["ccx", "job"], cwd=folder, check=True, capture_output=True, timeout=120)
-        return folder / "job.frd"
-
-    return solved
-
-
-@pytest.mark.parametrize("flag", [",OUTPUT=2D", ",OUTPUT=3D"])
-def test_a_result_of_calculix(solved_by_calculix, hertz, flag):
-    """Results are in a plane, or on the layer of wedges that it solves; the last of two steps."""
-    path = solved_by_calculix(flag)
-    section = {"file": str(path), "units": {"length": "mm", "stress": "MPa"}}
-    holds(read(section), hertz, near=0.05)  # the body is 18 half-widths deep
+    few = {"finite_element": {"growth": 0.5, "block": 20.0}, "resolution": {"pitch": "80 um"}}
+    make_deck(resolved(QUICK | few), "calculix", 1).write(tmp_path)
+    job, load = tmp_path / "job.inp", f"{1e-3 * hertz.load_per_length:g}"
+    head, star, step = job.read_text().replace("OUTPUT=2D", output).partition("*STEP")
+    assert load in step
+    half = step.replace(load, f"{0.5e-3 * hertz.load_per_length:g}")
+    job.write_text(head + star + half + star + step)
+    subprocess.run(["ccx", "job"], cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    section = tomllib.loads((tmp_path / "answer.toml").read_text())
+    section["file"] = str(tmp_path / section["file"])
+    holds(read(section), hertz, near=0.05)
     half = read(section | {"step": 0})
     assert half.load == pytest.approx(0.5 * hertz.load_per_length, rel=0.03)
 

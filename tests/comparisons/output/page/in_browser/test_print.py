@@ -3,6 +3,7 @@ PDF beside the report where a browser prints one, else a sentence."""
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -81,6 +82,21 @@ def test_a_printed_report_has_pages_of_a4(browser, wavy_file):
     assert {path.name for path in wavy_file.parent.iterdir()} == {"report.html", "report.pdf"}
 
 
+@pytest.fixture
+def stub(tmp_path, monkeypatch) -> Callable[..., None]:
+    """`stub(script)`: what stands for a browser, a line of a shell, alone on the PATH; or with
+    `prepend` before all that is there."""
+    program = tmp_path / "bin" / "chromium"
+    program.parent.mkdir()
+
+    def written(script: str, prepend: str | None = None) -> None:
+        program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+        program.chmod(0o755)
+        monkeypatch.setenv("PATH", str(program.parent), prepend)
+
+    return written
+
+
 STARTS = "case $1 in --version) exit;; esac; "
 
 
@@ -97,12 +113,8 @@ STARTS = "case $1 in --version) exit;; esac; "
     ],
     ids=["a stub", "hangs", "torn"],
 )
-def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, message):
-    browser = tmp_path / "bin" / "chromium"
-    browser.parent.mkdir()
-    browser.write_text(f"#!/bin/sh\nPATH=/usr/bin:/bin; {script}\n", encoding="utf-8")
-    browser.chmod(0o755)
-    monkeypatch.setenv("PATH", str(browser.parent))
+def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, stub, script, message):
+    stub(f"PATH=/usr/bin:/bin; {script}")
     page, target = tmp_path / "page.html", tmp_path / "page.pdf"
     page.write_text("<p>page</p>", encoding="utf-8")
     target.write_bytes(b"before")
@@ -118,26 +130,21 @@ body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
 load = {hertz_peak_pressure = 1e9}
 resolution = {pitch = "8 um"}
 """
-PRINTS = """#!/bin/sh
-for a in "$@"; do case $a in --print-to-pdf=*)
+PRINTS = """for a in "$@"; do case $a in --print-to-pdf=*)
 printf '%%PDF-1.4\\nprinted\\n%%%%EOF\\n' > "${a#*=}";; esac; done
 """
 
 
-def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, capsys, no_pictures):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, stub, capsys, drawn_only):
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(SCENE, encoding="utf-8")
     arguments = ["run", str(scene), "--models", "half-plane", "--out", str(out)]
-    browser = tmp_path / "bin" / "chromium"
-    browser.parent.mkdir()
-    monkeypatch.setenv("PATH", str(browser.parent), prepend=os.pathsep)
-    browser.write_text(PRINTS, encoding="utf-8")
-    browser.chmod(0o755)
-    assert main([*arguments, "--pdf"]) == 0
-    assert (out / "report.pdf").read_text() == "%PDF-1.4\nprinted\n%%EOF\n"
-    # what is asked for no more would be that of another run
-    assert main(arguments) == 0
+    stub(PRINTS, os.pathsep)
+    with drawn_only():
+        assert main([*arguments, "--pdf"]) == 0
+        assert (out / "report.pdf").read_text() == "%PDF-1.4\nprinted\n%%EOF\n"
+        # what is asked for no more would be that of another run
+        assert main(arguments) == 0
     assert not (out / "report.pdf").exists()
     # what somebody else printed there stays
     (out / "report.pdf").write_text("mine")
@@ -145,8 +152,9 @@ def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, caps
     assert (out / "report.pdf").read_text() == "mine"
     (out / "report.pdf").unlink()
     capsys.readouterr()
-    browser.write_text("#!/bin/sh\ncase $1 in --version) exit;; esac; exit 1\n", encoding="utf-8")
-    assert main([*arguments, "--pdf"]) == 0
+    stub(f"{STARTS} exit 1")
+    with drawn_only():
+        assert main([*arguments, "--pdf"]) == 0
     said = capsys.readouterr().err
     assert "ended with 1 and left no PDF" in said
     assert said.count("\n") == 1
