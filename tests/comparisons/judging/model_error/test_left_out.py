@@ -11,7 +11,6 @@ from comparisons.figures.figure import is_decided
 from comparisons.figures.quantity import MODELS
 from comparisons.judging import comparison
 from comparisons.judging.model_error import study as model_error
-from comparisons.judging.model_error.error_budget import error_budget
 from comparisons.judging.study import unsolved
 from comparisons.judging.verdict.headline import validity
 from comparisons.models.level import Level
@@ -55,7 +54,7 @@ def budgets(problem_with, tmp_path_factory):
         for effects in (True, "all"):
             scene = problem.scene.unchecked({"budget.effects": effects})
             posed = replace(solved, problem=replace(problem, scene=scene))
-            results.append(error_budget(posed, rows, Tasks(kept=cache)))
+            results.append(model_error.error_budget(posed, rows, Tasks(kept=cache)))
         return *results, problem.scene.tolerances
 
     return made
