@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
-from scenes import python
+from scenes import STEADY, changed, python
 
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
@@ -22,14 +22,9 @@ from comparisons.runs.write import write_contact, write_mesh
 @pytest.fixture(scope="module")
 def outcome(finish):
     """Rough steel, two friction coefficients, one with a decimal point."""
-    tables = {
-        "title": "Waves of 1 µm & <more>",
-        "roller": {"radius": 0.01, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
-        "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.25},
-        "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
-        "stress": {"points": [20, 10]},
-    }
-    return finish(tables)
+    tables = changed(STEADY, body={"poissons_ratio": 0.25}, stress={"points": [20, 10]})
+    load = {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]}
+    return finish(tables | {"title": "Waves of 1 µm & <more>", "load": load})
 
 
 @pytest.fixture(params=MODELS)
@@ -138,7 +133,8 @@ def test_one_file_holds_both_models_and_their_difference(outcome):
     """At the finite elements' nodes, against Hertz's closed form between the nodes of pressure."""
     problem, field = outcome.problem, field_of(outcome, levels_by_folder(outcome)["finite_element"])
     x, z, _ = field.points.T
-    hertz = hertz_from_load(problem.hertz.load_per_length, 0.01, problem.modulus)
+    radius = problem.scene.roller.radius
+    hertz = hertz_from_load(problem.hertz.load_per_length, radius, problem.modulus)
     for friction in (0.0, 0.1):
         exact = hertz_stress(hertz, x, z, friction)
         values = exact.sx, exact.sz, exact.sy(0.25), exact.txz, exact.tau1, exact.von_mises(0.25)
