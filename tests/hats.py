@@ -2,21 +2,26 @@
 
 import numpy as np
 
+from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.operators.half_plane import HalfPlane
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+
+
+def solved(operator: ModelOperator, weighted_gap, start=None, **limits) -> ContactSolution:
+    """The contact of gaps (n,) [m^2], weighted with the hats of an operator, within the limits of
+    `Constraints`, which converges."""
+    weights = np.full(operator.count, operator.pitch)
+    solution = solve_coupled(operator, weighted_gap, weights, Constraints(**limits), start)
+    assert solution.converged, solution.residuals
+    return solution
 
 
 def pressed(grid: HatGrid, modulus: float, gap, knots=None, **limits) -> ContactSolution:
-    """A half-plane of E* [Pa] under a gap g0(x) [m], within the limits of `Constraints`."""
-    operator, weighted_gap = (
-        HalfPlane(grid.count, grid.pitch, modulus),
-        grid.hat_integrals(gap, knots),
-    )
-    solution = solve_contact(operator, weighted_gap, grid.weights, Constraints(**limits))
-    assert solution.converged
-    return solution
+    """A half-plane of E* [Pa] under a gap g0(x) [m]."""
+    operator = HalfPlane(grid.count, grid.pitch, modulus)
+    return solved(operator, grid.hat_integrals(gap, knots), **limits)
 
 
 def of_narrow_hats(count: int, around: bool = False) -> np.ndarray:

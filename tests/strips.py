@@ -63,24 +63,7 @@ def strip_aliases(cycles: np.ndarray) -> np.ndarray:
 
 
 def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
-    """Stress under unit p and q on |x| < half_width, at x, z [m] (broadcast together), z >= 0."""
-    x, z = points_below(x, z)
-    return strip_between(x + half_width, x, x - half_width, z)
-
-
-def stress_of_strips(
-    x_nodes: np.ndarray, pressure: np.ndarray, friction: float, x: ArrayLike, z: ArrayLike
-) -> StressState:
-    """Stresses [Pa] under strips about uniform nodes (n,) [m], q = friction p; x, z as above."""
-    half_width = 0.5 * (x_nodes[1] - x_nodes[0])
-    strips = (strip_stress(x - node, z, half_width).at(friction).parts for node in x_nodes)
-    return StressState(*sum(p * parts for p, parts in zip(pressure, strips, strict=True)))
-
-
-def strip_between(
-    left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray
-) -> FrictionStress:
-    """Stresses under unit p and q on |x| < a, from `left` = x + a, x, `right` = x - a, z >= 0 [m].
+    """Stresses under unit p and q on |x| < half_width a, at x, z [m] (broadcast together), z >= 0.
 
     Each of them is known to rounding. On the surface the ends belong half to the strip, and sx
     under q is infinite there. Of Bailey and Sayles 1991, eq. (1) and (2), with t1, t2 =
@@ -89,6 +72,8 @@ def strip_between(
         sz, sx = -(1/pi) {(D - sin D) + 2 sin D (sin^2, cos^2)(S/2)}, txz = -(1/pi) sin S sin D,
     and with v = sinh ln(r2/r1) = 2 a x/(r1 r2), sx under q = -(2/pi) (asinh v - v z^2/(r1 r2)).
     """
+    x, z = points_below(x, z)
+    left, right = x + half_width, x - half_width
     side, x = np.where(x < 0.0, -1.0, 1.0), np.abs(x)
     left, right = np.where(side < 0.0, -right, left), np.where(side < 0.0, -left, right)
     product = np.hypot(left, z) * np.hypot(right, z)
@@ -111,6 +96,15 @@ def strip_between(
         ),
         traction_sx=-side * np.where(end, np.inf, _strip_stretch(left, x, right, z, product)),
     )
+
+
+def stress_of_strips(
+    x_nodes: np.ndarray, pressure: np.ndarray, friction: float, x: ArrayLike, z: ArrayLike
+) -> StressState:
+    """Stresses [Pa] under strips about uniform nodes (n,) [m], q = friction p; x, z as above."""
+    half_width = 0.5 * (x_nodes[1] - x_nodes[0])
+    strips = (strip_stress(x - node, z, half_width).at(friction).parts for node in x_nodes)
+    return StressState(*sum(p * parts for p, parts in zip(pressure, strips, strict=True)))
 
 
 def _strip_stretch(

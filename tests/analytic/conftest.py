@@ -4,13 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from hats import pressed, solved
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.exact.hertz import HertzContact, hertz_from_load
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import coupled_half_planes
 
 Gap = Callable[[np.ndarray], np.ndarray]
@@ -45,14 +44,8 @@ class Roller:
         self, grid: HatGrid, gap: Gap, constraints: Constraints | None = None, knots=None
     ) -> ContactSolution:
         """Solution on a grid, load prescribed unless said otherwise."""
-        solution = solve_contact(
-            HalfPlane(grid.count, grid.pitch, self.modulus),
-            grid.hat_integrals(gap, knots),
-            grid.weights,
-            constraints or Constraints(load=self.load),
-        )
-        assert solution.converged
-        return solution
+        limits = vars(constraints or Constraints(load=self.load))
+        return pressed(grid, self.modulus, gap, knots, **limits)
 
     def sliding(
         self,
@@ -63,15 +56,9 @@ class Roller:
         start: np.ndarray | None = None,
     ) -> ContactSolution:
         """Contact while it slides, with friction times Dundurs' beta."""
-        solution = solve_coupled(
-            coupled_half_planes(grid.count, grid.pitch, self.modulus, friction_dundurs),
-            grid.hat_integrals(gap),
-            grid.weights,
-            constraints or Constraints(load=self.load),
-            start,
-        )
-        assert solution.converged
-        return solution
+        pair = coupled_half_planes(grid.count, grid.pitch, self.modulus, friction_dundurs)
+        limits = vars(constraints or Constraints(load=self.load))
+        return solved(pair, grid.hat_integrals(gap), start, **limits)
 
 
 @pytest.fixture(scope="session")

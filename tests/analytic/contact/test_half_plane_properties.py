@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from hats import solved
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from strips import PeriodicStrips, StripHalfPlane
 
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
@@ -48,10 +49,7 @@ class Contact:
         return kind(len(self.gap), self.pitch, self.modulus)
 
     def solved(self) -> ContactSolution:
-        weights = np.full(len(self.gap), self.pitch)
-        solution = solve_contact(self.operator, self.pitch * self.gap, weights, self.constraints)
-        assert solution.converged, solution.residuals
-        return solution
+        return solved(self.operator, self.pitch * self.gap, **vars(self.constraints))
 
     def under(self, **limits: float) -> "Contact":
         return replace(self, constraints=replace(self.constraints, **limits))
@@ -111,9 +109,8 @@ def test_a_datum_that_is_not_in_proportion_is_seen(datum, most, least):
     here, approaches = contact(3, periodic=False), []
     for metre in (1.0, 2.0**10):
         operator = HalfPlane(len(here.gap), metre * here.pitch, 1.0, datum)
-        load = Constraints(load=here.constraints.load * metre)
-        weights = np.full(len(here.gap), metre * here.pitch)
-        solution = solve_contact(operator, metre**2 * here.pitch * here.gap, weights, load)
+        weighted_gap = metre**2 * here.pitch * here.gap
+        solution = solved(operator, weighted_gap, load=here.constraints.load * metre)
         approaches.append(solution.approach / metre)
     assert least <= abs(approaches[1] / approaches[0] - 1.0) <= most
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from hats import solved
 from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 from strips import StripHalfPlane
@@ -39,8 +40,7 @@ def test_uniform_strips_converge_to_hertz():
         grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
         operator = StripHalfPlane(grid.count, grid.pitch, MODULUS)
         gap = grid.pitch * roller_gap(RADIUS)(grid.x)
-        solution = solve_contact(operator, gap, grid.weights, Constraints(load=LOAD))
-        assert solution.converged
+        solution = solved(operator, gap, load=LOAD)
         exact = HERTZ.pressure(grid.x)
         errors.append(np.linalg.norm(solution.pressure - exact) / np.linalg.norm(exact))
     assert np.log2(errors[0] / errors[-1]) / 3.0 == pytest.approx(1.0, abs=0.1)

@@ -3,20 +3,18 @@
 from functools import partial
 from itertools import pairwise
 
+import hats
 import numpy as np
 import pytest
 from exact_stresses import sliding_stress
 from scipy.integrate import quad
 
-from analytic.contact.coupled import solve_coupled
-from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.exact.cases import ALUMINIUM, CERAMIC, STEEL, ExactContact, exact_contacts, hertz_case
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
-from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.operators.tangential import coupled_half_planes
 from analytic.stress.points import stress_at
@@ -81,16 +79,12 @@ def solved(
         grid = HatGrid.within(-case.half_range, case.half_range, pitch)
     shift = offset * pitch
     gap = grid.hat_integrals(lambda x: case.gap(x - shift), np.array(case.knots) + shift)
-    problem = gap, grid.weights, Constraints(load=case.load, hardness=case.hardness)
     size = grid.count, pitch, case.combined_modulus
     if case.period:
-        solution = solve_contact(PeriodicHalfPlane(*size), *problem)
-    elif case.coupled:
-        pair = coupled_half_planes(*size, case.friction * case.dundurs_beta)
-        solution = solve_coupled(pair, *problem)
+        operator = PeriodicHalfPlane(*size)
     else:
-        solution = solve_contact(HalfPlane(*size), *problem)
-    assert solution.converged
+        operator = coupled_half_planes(*size, case.friction * case.dundurs_beta)
+    solution = hats.solved(operator, gap, load=case.load, hardness=case.hardness)
     return grid.x - shift, solution
 
 

@@ -4,12 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hats import solved
 from layer_stresses import layer_field
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 
-from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_peak_pressure, hertz_stress
 from analytic.exact.manufactured import ManufacturedContact, PressurePatch, random_patches
 from analytic.grid import HatGrid
@@ -138,8 +137,7 @@ def test_the_contact_solver_finds_the_pressures(name):
             else LayeredSurface(grid.count, pitch, LAYERS[name])
         )
         gap = grid.hat_integrals(contact.gap)
-        load = Constraints(load=contact.load)
-        solution = solve_contact(operator, gap, grid.weights, load)
+        solution = solved(operator, gap, load=contact.load)
         errors.append(np.linalg.norm(solution.pressure - pressure) / np.linalg.norm(pressure))
     assert errors[2] < 0.35 * errors[0] and errors[2] < 0.02
 

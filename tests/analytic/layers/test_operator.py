@@ -4,12 +4,10 @@ import json
 
 import numpy as np
 import pytest
-from hats import of_narrow_hats
+from hats import of_narrow_hats, solved
 from scipy.linalg import toeplitz
 from scipy.special import zeta
 
-from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
 from analytic.exact.layers import TABLE
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody, normal_compliance
@@ -122,9 +120,7 @@ def pressed(body, half_width, count, **limits):
     grid = HatGrid.within(-1.25 * half_width, 1.25 * half_width, pitch)
     operator = LayeredSurface(grid.count, pitch, body)
     gap = grid.hat_integrals(roller_gap(1.0))
-    solution = solve_contact(operator, gap, grid.weights, Constraints(**limits))
-    assert solution.converged
-    return solution, grid
+    return solved(operator, gap, **limits), grid
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda c: f"{c['base']}-{c['nu']}-{c['a_over_t']}")
@@ -202,8 +198,8 @@ def test_approach_counts_from_the_base_and_not_from_the_grid():
         grid = HatGrid.within(-0.3 * window, 0.3 * window, 1.0 / 512)
         operator = LayeredSurface(grid.count, grid.pitch, body)
         gap = grid.hat_integrals(roller_gap(1.0))
-        load = Constraints(load=0.01 * LAYER.plane_strain_modulus)
-        approaches.append(solve_contact(operator, gap, grid.weights, load).approach)
+        load = 0.01 * LAYER.plane_strain_modulus
+        approaches.append(solved(operator, gap, load=load).approach)
     assert approaches[0] == pytest.approx(approaches[1], rel=1e-11)
 
 

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from hats import of_narrow_hats
+from hats import of_narrow_hats, solved
 from scenes import reference
 from scipy.linalg import circulant
 from scipy.special import zeta
 from strips import PeriodicStrips, StripHalfPlane
 
-from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
@@ -17,12 +15,6 @@ from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 WESTERGAARD = reference("d_westergaard")
 PITCH, MODULUS = 0.7e-6, 115e9
 COUNTS = (128, 256, 512, 1024, 2048)
-
-
-def solved(operator, gap, weights, load):
-    solution = solve_contact(operator, gap, weights, Constraints(load=load))
-    assert solution.converged
-    return solution
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +32,7 @@ def waves():
             wave = grid.hat_integrals(lambda x: 1.0 - np.cos(2.0 * np.pi * x))
             load = expected["pbar_over_pstar"] * np.pi
             operator = PeriodicHalfPlane(count, grid.pitch, 1.0)
-            solution = solved(operator, wave, grid.weights, load)
+            solution = solved(operator, wave, load=load)
             width = grid.pitch * np.count_nonzero(solution.pressure)
             touching = 2.0 * expected["half_width_over_lambda"]
             assert width == pytest.approx(touching, abs=1.5 * grid.pitch)
@@ -137,7 +129,7 @@ def test_full_contact_has_the_exact_wave():
         averaged = np.sinc(1.0 / count) ** 2 * grid.pitch * cosine  # of the wave over each hat
         operator = PeriodicHalfPlane(count, grid.pitch, MODULUS)
         load = mean * closing * wavelength
-        solution = solved(operator, -amplitude * averaged, grid.weights, load)
+        solution = solved(operator, -amplitude * averaged, load=load)
         assert np.all(solution.pressure > 0.0)
         wave = 2.0 / count * np.sinc(1.0 / count) ** 2 * (cosine @ solution.pressure) / closing
         assert 1.0 - wave == pytest.approx(2.0 * zeta(5.0) / count**5, rel=6.0 / count, abs=1e-11)
@@ -153,7 +145,7 @@ def test_light_load_on_a_long_period_is_the_free_contact():
     grid = HatGrid(1.0 / count, -count // 2, count // 2 - 1)
     gap = grid.hat_integrals(lambda x: (1.0 - np.cos(2.0 * np.pi * x)) / (4.0 * np.pi**2 * radius))
     load = np.pi * 0.01**2 / 4.0
-    around = solved(PeriodicHalfPlane(count, grid.pitch, 1.0), gap, grid.weights, load)
-    free = solved(HalfPlane(count, grid.pitch, 1.0), gap, grid.weights, load)
+    around = solved(PeriodicHalfPlane(count, grid.pitch, 1.0), gap, load=load)
+    free = solved(HalfPlane(count, grid.pitch, 1.0), gap, load=load)
     assert np.max(around.pressure) == pytest.approx(np.max(free.pressure), rel=2e-3)
     assert np.max(around.pressure) != pytest.approx(np.max(free.pressure), rel=1e-5)

@@ -213,18 +213,6 @@ def test_strips_between_their_axes_err_by_the_first_power_of_the_pitch(friction)
     assert np.all(between[-1] > 20.0 * hats)
 
 
-def test_only_strips_spike_at_their_ends_under_friction():
-    """Each decade towards a strip's end adds as much again; the hats' error stays."""
-    depths = 10.0 ** -np.arange(3.0, 12.0)
-    ends = axes(100, between=True)
-    strips = errors(100, 0.1, stress_of_strips, ends, depths)
-    steps = np.diff(strips)
-    assert np.all(steps > 0.0)
-    np.testing.assert_allclose(steps[2:], steps[2], rtol=1e-3)
-    hats = errors(100, 0.1, stress_at, ends, depths)
-    assert np.ptp(hats) < 1e-2 * hats[0]
-
-
 def test_three_pitches_down_elements_do_not_differ():
     for friction in (0.0, 0.1):
         hats, strips = (
