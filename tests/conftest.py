@@ -4,11 +4,15 @@ import os
 import signal
 import sys
 from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from analytic.surface.readers import instrument_worker, instruments
 from comparisons.common.progress import machine_memory
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -59,6 +63,24 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if reasons:
         listed = "; ".join(f"{reason} ({count})" for reason, count in sorted(reasons.items()))
         terminalreporter.write_line(f"not tested here: {listed}")
+
+
+@pytest.fixture(scope="session")
+def reading_process() -> Iterator[ProcessPoolExecutor]:
+    """SurfaceTopography in one process for all files: most of the time of one is its import."""
+    with ProcessPoolExecutor(1, get_context("spawn")) as process:
+        yield process
+
+
+@pytest.fixture
+def one_reader(monkeypatch: pytest.MonkeyPatch, reading_process: ProcessPoolExecutor) -> None:
+    """Each file is read as by a process of its own."""
+
+    def asked(path: Path, target: Path, channel: str | None) -> dict:
+        arguments = str(path.resolve()), str(target), channel
+        return reading_process.submit(instrument_worker.main, *arguments).result()
+
+    monkeypatch.setattr(instruments, "_ask", asked)
 
 
 @pytest.fixture

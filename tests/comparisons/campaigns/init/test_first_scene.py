@@ -77,7 +77,7 @@ def folder(tmp_path, monkeypatch) -> Path:
 
 
 @pytest.fixture(autouse=True)
-def undrawn(monkeypatch) -> None:
+def undrawn(monkeypatch, one_reader) -> None:
     """Drawing takes the longest."""
     monkeypatch.setattr(first_scene, "picture", lambda scene: "")
 
