@@ -56,6 +56,11 @@ GROUND = {
     | {"form": "none"},
     "load": {"per_length": 0.6e6, "friction": 0.1, "position": "1118 um"},
 }
+# Sliding, and the heat of it.
+HOT = SMOOTH | {"load": {"per_length": 3.55e6, "friction": 0.1}}
+HOT |= {"heat": {"speed": "1 m/s", **BOTH_CONDUCT}}
+# Constants of Murnaghan's law, as a scene may have them.
+CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 # With a field of few points, and nothing beside the two models.
 QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
 # Of runs that are finished without finite elements: smooth with a field; rough with a hardness and

@@ -13,12 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.material import Law, Material
-from analytic.material.third_order import (
-    PRESSURE_DERIVATIVES,
-    murnaghan_constants,
-    murnaghan_errors,
-    peak_change,
-)
+from analytic.material.third_order import murnaghan_constants, murnaghan_errors, peak_change
 from comparisons.common.errors import nearest
 from comparisons.common.units import (
     CONDUCTIVITY,
@@ -266,9 +261,9 @@ def _solid(entry: Mapping) -> Solid:
 
 def _value(table: Mapping, dimension: Dimension) -> Value:
     """A number, or the middle of a range."""
-    if "value" in table:
+    if not isinstance(table["value"], list):
         return Value(to_si(table["value"], dimension), _keys(table))
-    low, high = to_si(table["from"], dimension), to_si(table["to"], dimension)
+    low, high = (to_si(end, dimension) for end in table["value"])
     return Value(0.5 * (low + high), _keys(table), span=(low, high))
 
 
@@ -282,11 +277,9 @@ def _elastic(entry: Mapping) -> dict[str, Value]:
     table, keys = dict(entry["elastic"]), _keys(entry["elastic"])
     del table["source"]
     measured, spans = {}, {}
-    for name in dict.fromkeys(name.removesuffix("_from").removesuffix("_to") for name in table):
+    for name, given in table.items():
         dimension = {**MEASURED, **THERMAL}.get(name, PRESSURE)
-        ends = {key: table[f"{name}_{key}"] for key in ("from", "to") if name not in table}
-        part = ends or {"value": table[name]}
-        value = _value(part | {"source": keys}, dimension)
+        value = _value({"value": given, "source": keys}, dimension)
         measured[name], spans[name] = value.value, value.span
     errors = _errors(entry.get("elastic_errors", {}), measured, PRESSURE)
     constants = dict.fromkeys(ELASTIC, 0.0)
@@ -338,10 +331,7 @@ def _law(entry: Mapping, values: Mapping[str, Value]) -> tuple[Law | None, tuple
     table = dict(entry["third_order"])
     keys = _keys(table)
     del table["source"]
-    constants = {
-        name: to_si(value, DIMENSIONLESS if name in PRESSURE_DERIVATIVES else PRESSURE)
-        for name, value in table.items()
-    }
+    constants = {name: to_si(value, PRESSURE) for name, value in table.items()}
     material = Material(*(values[name].value for name in ELASTIC))
     errors = _errors(entry.get("third_order_errors", {}), constants, PRESSURE)
     return Law(

@@ -327,7 +327,7 @@ def with_tolerance(scene: Scene, tolerance: float | str) -> Scene:
 def with_law(scene: Scene, law: str) -> Scene:
     """The scene with one law of elasticity of all its elastic bodies.
     Raises SceneError for a law that needs constants, or is none."""
-    constants = {name: part.murnaghan for name, part in scene.elastic_sections.items()}
-    fields = {f"{name}.law": law for name in constants}
-    written = (n for n in constants if "murnaghan" in scene.written[n])
-    return scene.changed(fields | dict.fromkeys(f"{n}.murnaghan" for n in written))
+    bodies = scene.elastic_sections
+    fields = {f"{name}.law": law for name in bodies}
+    written = (name for name in bodies if "murnaghan" in scene.written[name])
+    return scene.changed(fields | dict.fromkeys(f"{name}.murnaghan" for name in written))

@@ -98,12 +98,6 @@ class ProfileInfo:
         nested = ("form", "roughness", "standard")
         return figures | {name: finite(figures[name]) for name in nested if figures[name]}
 
-    def surface(self) -> dict:
-        """The surface's figures, as pressed and by the standard, for JSON."""
-        plain = self.as_dict()
-        names = ("cutoff", "short_cutoff", "standard", "standard_why")
-        return {"pressed": plain["roughness"], **{name: plain[name] for name in names}}
-
 
 @dataclass(frozen=True)
 class SceneSurface:

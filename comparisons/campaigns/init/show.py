@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 TRACE = ("source", "format", "place", "samples", "length", "spacing", "bridged", "trimmed", "form")
+FILTERED = ("cutoff", "short_cutoff", "standard", "standard_why")
 UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not even
 HEIGHT = 5.2  # inches
 DECADES = 12  # of the spectrum below its largest value; what is lower is rounding
@@ -46,8 +47,7 @@ class FirstScene(Printed):
 
     def as_dict(self) -> dict:
         """Scene and surface for JSON, SI units."""
-        info = self.surface.info
-        trace = info.as_dict()
+        trace = self.surface.info.as_dict()
         return {
             "scene": str(self.path),
             "picture": None if self.picture is None else str(self.picture),
@@ -55,7 +55,7 @@ class FirstScene(Printed):
             "fields": self.profile.fields,
             "guesses": self.profile.reasons,
             "examples": list(self.examples),
-            "surface": info.surface(),
+            "surface": {"pressed": trace["roughness"]} | {name: trace[name] for name in FILTERED},
             "roller_radius": self.scene.roller.radius,
         }
 

@@ -17,8 +17,8 @@ LOWERING = "lowering"  # of the body's surface under the roller's centre, agains
 HELD_LOWERING, HELD_PRESSURE = "held_lowering", "held_pressure"
 PRESSURES = "peak_pressure", "tau1_max", "txz_max_abs", "edge_tension", HELD_PRESSURE
 LENGTHS = "contact_length", "tau1_max_depth", "stick_length", "tangential_displacement"
-LOWERINGS = LOWERING, HELD_LOWERING
-DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys((*LENGTHS, *LOWERINGS), LENGTH)
+LENGTHS += LOWERING, HELD_LOWERING
+DIMENSIONS = dict.fromkeys(PRESSURES, PRESSURE) | dict.fromkeys(LENGTHS, LENGTH)
 
 
 class PublishedSection(SceneSection):

@@ -30,6 +30,15 @@ WAVES = {
 }
 
 
+SOME = (
+    (0.1, 0.3, "bonded"),
+    (0.25, 0.45, "bonded"),
+    (1.0, None, "frictionless"),
+    (4.0, 0.3, "bonded"),
+)
+LAYERS = [c for c in layer_references() if (c.half_width, c.poissons_ratio, c.base) in SOME]
+
+
 def set_to(tables: dict, **values: float):
     """The problem of a scene whose groups have these values."""
     return problem_of(scene_with(Scene.of(tables), values))
@@ -138,18 +147,6 @@ def solved(scene: Scene) -> dict:
 
 
 class TestModelError:
-    LAYERS = tuple(
-        case
-        for case in layer_references()
-        if (case.half_width, case.poissons_ratio, case.base)
-        in (
-            (0.1, 0.3, "bonded"),
-            (0.25, 0.45, "bonded"),
-            (1.0, None, "frictionless"),
-            (4.0, 0.3, "bonded"),
-        )
-    )
-
     @pytest.mark.parametrize("case", LAYERS, ids=lambda case: f"{case.base}-{case.half_width}")
     def test_on_a_layer_it_is_the_exact_one(self, case):
         """Hertz's figures under the load that gives an exact contact, over that contact's."""

@@ -169,30 +169,28 @@ def test_a_sinusoid_has_a_crest_under_the_roller():
     assert surface.info.form.kind == "none"
 
 
-def test_a_self_affine_profile_is_that_of_its_seed():
-    fields = {"hurst": 0.8, "rms_slope": 0.03, "samples": 257, "length": 1e-3}
-    surface = with_profile(kind="self-affine", seed=5, **fields)
-    wanted = self_affine(seed=5, **fields)
-    assert np.array_equal(surface.profile.height, wanted.height)
-    assert surface.info.roughness.rms_slope == pytest.approx(0.03, rel=1e-12)
-    other = with_profile(kind="self-affine", seed=6, **fields)
-    assert not np.allclose(other.profile.height, wanted.height, atol=1e-9)
-    unseeded = resolved(changed(BARE, profile={"kind": "self-affine", **fields}))
-    assert unseeded.tables["profile"]["seed"] == 0
+SLOPED = {"hurst": 0.8, "rms_slope": 0.03, "samples": 257, "length": 1e-3}
+TEXTURE = {"rms_height": 4e-7, "samples": 513, "length": 5e-4, "shortest_wavelength": 1e-5}
+TEXTURE |= {"roll_off_wavelength": 8e-5, "longest_wavelength": 2.5e-4}
+FED = {"feed": 1e-4, "nose_radius": 8e-4, "length": 4e-3, "phase": 0.25}
+FED |= {"noise": 5e-8, "noise_wavelength": 1e-5}
 
 
-def test_a_ground_texture():
-    fields = {
-        "rms_height": 4e-7,
-        "samples": 513,
-        "length": 5e-4,
-        "shortest_wavelength": 1e-5,
-        "roll_off_wavelength": 8e-5,
-        "longest_wavelength": 2.5e-4,
-    }
-    surface = with_profile(kind="ground", seed=3, **fields)
-    assert np.array_equal(surface.profile.height, ground_texture(seed=3, **fields).height)
-    assert surface.info.roughness.rsk < 0.0
+@pytest.mark.parametrize(
+    ("kind", "made", "fields"),
+    [("self-affine", self_affine, SLOPED), ("ground", ground_texture, TEXTURE),
+     ("turned", turned, FED)],
+)  # fmt: skip
+def test_a_made_profile_is_that_of_its_seed(kind, made, fields):
+    surface = with_profile(kind=kind, seed=5, **fields)
+    wanted = made(seed=5, **fields).height
+    assert np.array_equal(surface.profile.height, wanted)
+    other = with_profile(kind=kind, seed=6, **fields)
+    assert np.std(other.profile.height - wanted) > 5e-8
+    assert scene_with(kind=kind, **fields).tables["profile"]["seed"] == 0
+    figures = surface.info.roughness
+    assert kind != "self-affine" or figures.rms_slope == pytest.approx(0.03, rel=1e-12)
+    assert kind != "ground" or figures.rsk < 0.0
 
 
 @pytest.fixture
@@ -266,21 +264,13 @@ class TestFilter:
         assert "the trace of 1 mm is too short for the standard's cut-off" in info.standard_why
 
 
-class TestTurned:
-    def test_it_is_what_the_tool_leaves(self):
-        surface = with_profile(**TURNED, phase=0.25)
-        wanted = turned(feed=1e-4, nose_radius=8e-4, length=4e-3, phase=0.25)
-        assert np.array_equal(surface.profile.height, wanted.height)
-        figures = surface.info.roughness
-        assert figures.rt == pytest.approx(turned_height(1e-4, 8e-4, 8e-5), rel=1e-3)
-        assert surface.info.standard.rsm == pytest.approx(1e-4, rel=1e-3)
-        assert scene_with(**TURNED).tables["profile"]["seed"] == 0
-
-    def test_noise_is_that_of_its_seed(self):
-        changes = {**TURNED, "noise": "50 nm", "noise_wavelength": "10 um"}
-        one, same, other = (with_profile(**changes, seed=seed) for seed in (1, 1, 2))
-        assert np.array_equal(one.profile.height, same.profile.height)
-        assert np.std(one.profile.height - other.profile.height) > 5e-8
+def test_a_turned_surface_is_what_the_tool_leaves():
+    surface = with_profile(**TURNED, phase=0.25)
+    wanted = turned(feed=1e-4, nose_radius=8e-4, length=4e-3, phase=0.25)
+    assert np.array_equal(surface.profile.height, wanted.height)
+    figures = surface.info.roughness
+    assert figures.rt == pytest.approx(turned_height(1e-4, 8e-4, 8e-5), rel=1e-3)
+    assert surface.info.standard.rsm == pytest.approx(1e-4, rel=1e-3)
 
 
 def test_the_result_has_the_surface_as_pressed_and_by_the_standard(finish):

@@ -4,7 +4,7 @@ import datetime
 import math
 
 import pytest
-from scenes import BOTH_CONDUCT, SMOOTH, STEEL, changed, resolved
+from scenes import CONSTANTS, HOT, SMOOTH, STEEL, changed, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.models.posing import problem_of
@@ -22,13 +22,11 @@ LAYER = changed(SMOOTH, body={"thickness": 5e-3})
 COAT = {"thickness": 1e-5, "youngs_modulus": 4e11, "poissons_ratio": 0.2}
 COAT_HEAT = {f"heat.coating_{name}": 10.0 for name in ("conductivity", "density", "specific_heat")}
 COATED = SMOOTH | {"coating": {"thickness": 1e-5, **STEEL}}
-CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 MURNAGHAN = changed(SMOOTH, body={"law": "murnaghan", "murnaghan": CONSTANTS})
 YIELDING = changed(SMOOTH, body={"yield_stress": 2e8})
 FLOWING = changed(YIELDING, finite_element={"plastic": True})
 SLIDING = changed(SMOOTH, load={"friction": 0.1})
 FINITE = changed(RIGID, finite_element={"deformation": "finite"})
-HOT = SLIDING | {"heat": {"speed": "1 m/s", **BOTH_CONDUCT}}
 STRESSED = changed(HOT, heat={"stresses": True, "body_expansion": "12 um/m/K"}, stress={})
 PERIODIC = {"roller": {"rigid": True}, "body": STEEL, "profile": WAVE | {"periodic": True}}
 PERIODIC |= {"load": {"mean_pressure": 140e6, "friction": [0.0, 0.3]}}

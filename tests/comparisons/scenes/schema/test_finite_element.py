@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-from scenes import RIGID_PAIR, STEEL, STEEL_PAIR, changed, resolved
+from scenes import CONSTANTS, RIGID_PAIR, STEEL, STEEL_PAIR, changed, resolved
 
 from analytic.material import Law
 from analytic.material.hardening import Hardening
@@ -18,7 +18,6 @@ from comparisons.studies.problem import assumed
 LOAD = {"load": {"per_length": 1e6, "friction": 0.2}}
 ELASTIC, RIGID = STEEL_PAIR | LOAD, RIGID_PAIR | LOAD
 WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
-CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 
 
 def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict):

@@ -1,12 +1,11 @@
 """The [heat] section: its defaults, what moves, and what no temperature can be computed for."""
 
 import pytest
-from scenes import BOTH_CONDUCT, SMOOTH, changed, problem, resolved
+from scenes import HOT, SMOOTH, changed, problem, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.studies.heat.half_space import check_heat, reach_of
 
-HOT = changed(SMOOTH, load={"friction": 0.1}, heat={"speed": "1 m/s", **BOTH_CONDUCT})
 STRESSED = changed(HOT, heat={"stresses": True, "body_expansion": "12 um/m/K"}, stress={})
 
 

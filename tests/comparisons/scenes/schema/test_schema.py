@@ -5,7 +5,7 @@ import json
 
 import pytest
 from jsonschema import Draft202012Validator
-from scenes import BOTH_CONDUCT, SMOOTH, changed, resolved
+from scenes import CONSTANTS, HOT, SMOOTH, changed, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
@@ -15,10 +15,8 @@ from comparisons.scenes.schema.json_schema import schema_for_editors
 
 SCHEMA = schema_for_editors(Scene)
 VALIDATOR = Draft202012Validator(SCHEMA)
-HOT = changed(SMOOTH, load={"friction": 0.1}, heat={"speed": "1 m/s", **BOTH_CONDUCT})
 ANSWER = {"file": "a.csv", "units": {"length": "mm"}, "columns": ["x", 2], "up": "-y"}
 PROFILE = {"file": "map.npy", "spacing": "1 um", "line": [[0, "1 um"], ["4 um", 0]]}
-CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
 TAKEN = [
     changed(SMOOTH, body={"law": "murnaghan", "murnaghan": CONSTANTS}),
     changed(SMOOTH, roller={"support": {"hub": "2 mm"}}),
