@@ -11,7 +11,6 @@ from itertools import zip_longest
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from comparisons.figures.convergence import LOWEST_ORDER
 from comparisons.figures.figure import Figure
@@ -170,8 +169,10 @@ def quantities_of(level: Level, problem: Problem) -> QuantitiesOfInterest:
         for name, key in (("tau1_max", "tau1"), ("txz_max_abs", "txz")):
             figures[name], places[name], depth = stress.maxima[key]
             if name == "tau1_max":
-                rise = boundary_rise(problem, level, places[name])
-                figures["tau1_max_depth"] = depth + rise
+                # depths count from the level's boundary, whose heights [m] these are
+                is_rough = level.mesh is not None and problem.rough_boundary
+                boundary = problem.surface.profile.spline()(places[name]) if is_rough else 0.0
+                figures["tau1_max_depth"] = depth + boundary
     return QuantitiesOfInterest(figures, places, peak_resolution(pressure))
 
 
@@ -184,13 +185,6 @@ def relative_differences(
         scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
         sizes[name] = (value - reference[name]) / scale
     return sizes
-
-
-def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
-    """Height [m] of the level's boundary above x [m], from which depths count."""
-    if level.mesh is None or not problem.rough_boundary:
-        return np.zeros(np.shape(x))
-    return problem.surface.profile.spline()(x)
 
 
 def by_repetition(

@@ -69,11 +69,6 @@ class EffectSelection:
         impossible = dict(sorted((self.impossible | dict.fromkeys(names, why)).items()))
         return replace(self, added=added, impossible=impossible, laws=laws)
 
-    def flowing_finitely(self) -> "EffectSelection":
-        """Selection with finite strain of what flows, which could not be computed before."""
-        impossible = {name: why for name, why in self.impossible.items() if name != FINITE}
-        return replace(self, added=self.added | {FINITE}, impossible=impossible)
-
     def estimated(
         self, name: str, sizes: Sizes, why: str, tolerances: Mapping[str, float]
     ) -> "EffectSelection":

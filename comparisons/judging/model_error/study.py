@@ -193,7 +193,9 @@ def _of_what_flows(budget: ErrorBudget, effects: EffectRefinement) -> EffectSele
         selection = selection.estimated(FINITE, sizes, SMALL_STRAINS, tolerances)
     if selection.impossible.get(FINITE) != SMALL_STRAINS:
         return selection
-    asked, finite = problem.scene.budget.effects, selection.flowing_finitely()
+    impossible = {name: why for name, why in selection.impossible.items() if name != FINITE}
+    finite = replace(selection, added=selection.added | {FINITE}, impossible=impossible)
+    asked = problem.scene.budget.effects
     # what its law of elasticity may change stays, and decides nothing of this
     others = {name: sizes for name, sizes in selection.estimates.items() if name != LAW}
     known = replace(budget, selection=replace(selection, estimates=others)).figures(tolerances)
