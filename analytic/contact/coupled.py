@@ -19,14 +19,13 @@ step is a contact problem of N, `solve_contact`."""
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from analytic.contact.active_set import ActiveSet
 from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
-from analytic.contact.exchange import exchange, exchange_blocks
-from analytic.contact.nested_start import EDGES_OFF, coarse_start
+from analytic.contact.exchange import exchange_blocks
+from analytic.contact.nested_start import coarse_start
 from analytic.contact.problem import ContactSolution, posed, solution_of, solve_contact
 from analytic.operators.half_plane import ModelOperator
 
@@ -144,7 +143,7 @@ def solve_coupled(
     if start is not None:
         pressure, _, settled = exchange_blocks(problem, start)
     if not settled:
-        start = coarse_start(problem, partial(exchange, settled=EDGES_OFF), COARSEST)
+        start = coarse_start(problem, COARSEST)
         pressure, _, settled = exchange_blocks(problem, start)
     solution = solution_of(problem, pressure, common)
     if not (settled or solution.converged):

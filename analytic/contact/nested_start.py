@@ -5,26 +5,20 @@ and weights are restricted by the hats' own sums, pressures interpolated. Near a
 fall as the root of the distance, so that their squares tell on which side of the middle between
 two coarse nodes the edge lies."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from analytic.contact.equilibrium import EquilibriumProblem
+from analytic.contact.exchange import exchange
 from analytic.grid import restricted
 
 COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 EDGES_OFF = 0.25  # of the edges of a coarse contact may still be off by a node
 
-Settle = Callable[[EquilibriumProblem, np.ndarray], np.ndarray]
 
-
-def coarse_start(
-    problem: EquilibriumProblem, settle: Settle, coarsest: int = COARSEST
-) -> np.ndarray:
+def coarse_start(problem: EquilibriumProblem, coarsest: int = COARSEST) -> np.ndarray:
     """Pressures (n,) [Pa] to start from: nested grids, each solved until its edges settle.
 
-    settle    pressures of a coarse problem, whose edges may be off, from a start
     coarsest  nodes below which no coarser grid is made"""
     count, periodic = len(problem.weighted_gap), problem.operator.periodic
     operator = problem.operator.coarser if count >= coarsest else None
@@ -37,7 +31,7 @@ def coarse_start(
         problem.constraints.coarsened(),
         problem.spent,
     )
-    pressure = settle(coarse, coarse_start(coarse, settle, coarsest))
+    pressure = exchange(coarse, coarse_start(coarse, coarsest), settled=EDGES_OFF)
     return prolonged(np.clip(pressure, 0.0, coarse.constraints.hardness), count, periodic)
 
 

@@ -14,13 +14,12 @@ Method: an active set (`analytic.contact.exchange`) on nested grids, each starte
 coarser one (`nested_start`); on a fixed set conjugate gradients (`equilibrium`)."""
 
 from dataclasses import astuple, dataclass, replace
-from functools import partial
 
 import numpy as np
 
 from analytic.contact.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
 from analytic.contact.exchange import exchange
-from analytic.contact.nested_start import EDGES_OFF, coarse_start
+from analytic.contact.nested_start import coarse_start
 from analytic.operators.half_plane import ModelOperator
 
 EVEN = 1e-5  # of the displacement: rounding, 1e-14 of it, must not count as a residual
@@ -122,7 +121,7 @@ def solve_contact(
     KKT_TOLERANCE is returned with `converged` False."""
     problem, common = posed(EquilibriumProblem, operator, weighted_gap, weights, constraints)
     if start is None:
-        start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
+        start = coarse_start(problem)
     return solution_of(problem, exchange(problem, start), common)
 
 

@@ -1,7 +1,6 @@
 """Restriction to grids of doubled pitch, and what the nested solver costs. Displacements
 continued over the gaps: what the continuation is, and what it buys."""
 
-from functools import partial
 from unittest.mock import patch
 
 import numpy as np
@@ -11,8 +10,7 @@ from scipy.linalg import toeplitz
 
 from analytic.contact.active_set import ActiveSet
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
-from analytic.contact.exchange import exchange
-from analytic.contact.nested_start import COARSEST, EDGES_OFF, coarse_start
+from analytic.contact.nested_start import COARSEST, coarse_start
 from analytic.contact.preconditioner import Extension, RowExtension, extension_from
 from analytic.grid import HatGrid, restricted, roller_gap
 from analytic.operators.half_plane import HalfPlane
@@ -57,7 +55,7 @@ def test_a_coarse_start_is_close_to_the_solution(kind, count):
     spent = {"exchanges": 0, "applications": 0}
 
     problem = EquilibriumProblem(operator, gap, weights, Constraints(load=0.03), spent)
-    start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
+    start = coarse_start(problem)
     assert start.shape == (count,) and np.all(start >= 0.0)
     nested = count >= COARSEST and not (kind is PeriodicHalfPlane and count % 2)
     assert (spent["exchanges"] > 0) == nested
