@@ -104,16 +104,11 @@ def test_a_finer_level_without_a_solution_ends_the_refinement(monkeypatch):
 def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
     out = tmp_path / "out"
     out.mkdir()
-    level = smooth_outcome.runs["half_plane"].levels[0]
     cache = level_cache(out, smooth_outcome.problem, smooth_outcome.plan)
-    cache.save("first", level)
-    assert [path.name for path in tmp_path.iterdir()] == ["out"]
-    assert [path.relative_to(out) for path in out.rglob("*.npz")] == [
-        (out / ".unfinished/run/first.npz").relative_to(out)
-    ]
-    assert np.array_equal(cache.load("first").solution.pressure, level.solution.pressure)
+    cache.save("first", smooth_outcome.runs["half_plane"].levels[0])
+    assert [*tmp_path.rglob("*.npz")] == [out / ".unfinished/run/first.npz"]
     cache.discard()
-    assert not list(out.iterdir())
+    assert [*tmp_path.rglob("*")] == [out]
 
 
 def test_the_end_of_another_command_leaves_levels_alone(tmp_path, smooth_outcome):
