@@ -7,6 +7,7 @@ every day stand in a table here; the tests hold every entry of it against pint."
 import datetime
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
@@ -80,24 +81,23 @@ def to_si(entry: object, dimension: Dimension) -> float:
     anything else, an unknown unit, another dimension, or a value that is not finite."""
     if isinstance(entry, bool) or not isinstance(entry, int | float | str):
         raise UnitError(f"is {describe(entry)}")
-    if not isinstance(entry, str):
-        try:
-            value = float(entry)
-        except OverflowError:
-            value = math.inf
-        return _finite(value, entry)
-    match = _NUMBER.fullmatch(entry)
-    if match is None:
-        raise UnitError(f"is {describe(entry)}, which is not a number and a unit")
-    number, unit = match[1], match[2]
-    if not unit:
-        raise UnitError(f"is {describe(entry)}, which has no unit")
-    factor = _factor(unit, dimension, entry)
-    if not math.isfinite(float(number)):
-        return _finite(float(number), entry)
-    if float(number) == 0.0:
-        return 0.0
-    return _finite(float(Decimal(number) * factor), entry)
+    number, factor = entry, None
+    if isinstance(entry, str):
+        match = _NUMBER.fullmatch(entry)
+        if match is None:
+            raise UnitError(f"is {describe(entry)}, which is not a number and a unit")
+        number, unit = match.groups()
+        if not unit:
+            raise UnitError(f"is {describe(entry)}, which has no unit")
+        factor = _factor(unit, dimension, entry)
+    value = math.inf
+    with suppress(OverflowError):  # of a long whole number
+        value = float(number)
+    if factor is not None and value != 0.0 and math.isfinite(value):
+        value = float(Decimal(number) * factor)
+    if not math.isfinite(value):
+        raise UnitError(f"is {describe(entry)}, which is not finite")
+    return value
 
 
 def unit_in_si(unit: object, dimension: Dimension) -> float:
@@ -129,12 +129,6 @@ def describe(entry: object) -> str:
         return "a table"
     dates = datetime.date | datetime.time
     return "a date or time" if isinstance(entry, dates) else f"of type {type(entry).__name__}"
-
-
-def _finite(value: float, entry: object) -> float:
-    if not math.isfinite(value):
-        raise UnitError(f"is {describe(entry)}, which is not finite")
-    return value
 
 
 def _factor(unit: str, dimension: Dimension, entry: str) -> Decimal:

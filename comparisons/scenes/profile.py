@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, StrictBool, StrictInt, model_validator
+from pydantic import Field, StrictBool, StrictInt
 
 from analytic.profile import MAX_SAMPLES, MIN_SAMPLES
 from comparisons.common.units import DIMENSIONLESS, LENGTH
@@ -107,14 +107,10 @@ class ProfileSection(SceneSection):
         """ "file" for a measured profile, else its kind."""
         return self.kind or "file"
 
-    @model_validator(mode="before")
-    @classmethod
-    def _defaults_of_the_variety(cls, entry: object) -> object:
-        if not isinstance(entry, dict):
-            return entry
-        kind = entry.get("kind", "file")
-        variety = VARIETIES.get(kind) if isinstance(kind, str) else None
-        return {**variety.defaults, **entry} if variety else entry
+    def completed(self, scene: SceneSection) -> Self:
+        defaults = VARIETIES[self.variety].defaults.items()
+        follows = {name: value for name, value in defaults if getattr(self, name) is None}
+        return self.model_copy(update=follows)
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(("file", "kind"))
