@@ -18,42 +18,39 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 
-RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 3.55e6
-HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
-
 
 def test_two_thousand_elements_meet_hertz(roller):
-    reach = 1.5 * HERTZ.half_width
+    reach = 1.5 * roller.hertz.half_width
     grid = HatGrid.within(-reach, reach, 2.0 * reach / 2000)
-    solution = roller.pressed(grid, roller_gap(RADIUS))
+    solution = roller.pressed(grid, roller.smooth())
     patch = contact_patches(grid.x, solution.pressure, solution.gap)
-    assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
-    assert np.ptp(patch) / 2.0 / HERTZ.half_width == pytest.approx(1.0, abs=1e-4)
+    assert solution.pressure.max() / roller.hertz.peak_pressure == pytest.approx(1.0, abs=1e-5)
+    assert np.ptp(patch) / 2.0 / roller.hertz.half_width == pytest.approx(1.0, abs=1e-4)
     assert len(patch) == 1
 
 
-def test_uniform_strips_converge_to_hertz():
+def test_uniform_strips_converge_to_hertz(roller):
     """The method as published: collocated strips, of first order at the contact's edge."""
     errors = []
     for elements in (120, 240, 480, 960):
-        reach = 1.5 * HERTZ.half_width
+        reach = 1.5 * roller.hertz.half_width
         grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
-        operator = StripHalfPlane(grid.count, grid.pitch, MODULUS)
-        gap = grid.pitch * roller_gap(RADIUS)(grid.x)
-        solution = solved(operator, gap, load=LOAD)
-        exact = HERTZ.pressure(grid.x)
+        operator = StripHalfPlane(grid.count, grid.pitch, roller.modulus)
+        gap = grid.pitch * roller.smooth()(grid.x)
+        solution = solved(operator, gap, load=roller.load)
+        exact = roller.hertz.pressure(grid.x)
         errors.append(np.linalg.norm(solution.pressure - exact) / np.linalg.norm(exact))
     assert np.log2(errors[0] / errors[-1]) / 3.0 == pytest.approx(1.0, abs=0.1)
     assert errors[-1] < 1e-3
-    assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
+    assert solution.pressure.max() / roller.hertz.peak_pressure == pytest.approx(1.0, abs=1e-5)
 
 
 ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
 
 
-def dense_oracle(grid, gap, load):
+def dense_oracle(roller, grid, gap):
     """Pressures by non-negative least squares on the Cholesky factor, approach by bisection."""
-    factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column))
+    factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, roller.modulus).column))
     size = np.abs(factor).max()
     weighted_gap = grid.hat_integrals(gap)
 
@@ -65,7 +62,7 @@ def dense_oracle(grid, gap, load):
     low, high = -1e-5, 1e-4
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if grid.weights @ at(middle) < load else (low, middle)
+        low, high = (middle, high) if grid.weights @ at(middle) < roller.load else (low, middle)
     return at(0.5 * (low + high))
 
 
@@ -73,7 +70,7 @@ def dense_oracle(grid, gap, load):
 def test_rough_contact_agrees_with_non_negative_least_squares(roller, seed):
     grid = HatGrid.within(-0.8e-3, 0.8e-3, 10e-6)
     solution = roller.pressed(grid, roller.rough(seed))
-    oracle = dense_oracle(grid, roller.rough(seed), LOAD)
+    oracle = dense_oracle(roller, grid, roller.rough(seed))
     assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 3
     assert solution.pressure == pytest.approx(oracle, abs=1e-6 * oracle.max())
 
@@ -82,7 +79,7 @@ def test_rough_contact_agrees_with_non_negative_least_squares(roller, seed):
 def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
     """The method that ends the cycles of the fast one must solve every problem by itself."""
     gap = roller.rough(seed)
-    constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
+    constraints = Constraints(load=0.3 * roller.load, hardness=3e9)
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 8e-6)
     fast = roller.pressed(grid, gap, constraints)
     monkeypatch.setattr(exchange, "MAX_EXCHANGES", 0)
@@ -94,17 +91,17 @@ def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
 class TestHardness:
     def test_a_load_beyond_the_hardness_is_refused(self, roller):
         with pytest.raises(ContactError, match="exceeds what the surface can carry"):
-            roller.pressed(ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=1e9))
+            roller.pressed(ROUGH_GRID, roller.rough(7), Constraints(load=roller.load, hardness=1e9))
 
     @pytest.mark.parametrize("count", [1023, 4095, 16383])
     @pytest.mark.parametrize("above_mean", [1.05, 1.5])
     def test_a_plateau_costs_few_exchanges(self, roller, count, above_mean):
         """Nearly every node at the hardness, where block exchanges may come round in a circle."""
-        reach = 2.0 * HERTZ.half_width
+        reach = 2.0 * roller.hertz.half_width
         grid = HatGrid.within(-reach, reach, 2.0 * reach / (count + 1))
-        hardness = above_mean * LOAD / grid.weights.sum()
-        limits = Constraints(load=LOAD, hardness=hardness)
-        solution = roller.pressed(grid, roller_gap(RADIUS), limits)
+        hardness = above_mean * roller.load / grid.weights.sum()
+        limits = Constraints(load=roller.load, hardness=hardness)
+        solution = roller.pressed(grid, roller.smooth(), limits)
         assert solution.iterations["applications"] < 200
         assert np.mean(solution.pressure >= hardness) == pytest.approx(1.0 / above_mean, abs=5e-3)
 
@@ -117,11 +114,11 @@ class TestLimits:
     @pytest.mark.parametrize("load", [1e-2, 1e-6])
     def test_a_light_load_under_a_far_surface_costs_no_more(self, roller, load):
         """A common gap a million times the compression must not drown it in rounding."""
-        half_width = hertz_from_load(load, RADIUS, MODULUS).half_width
+        half_width = hertz_from_load(load, roller.radius, roller.modulus).half_width
         grid = HatGrid.within(-3.0 * half_width, 3.0 * half_width, half_width / 150.0)
         near, far = (
-            roller.pressed(grid, lambda x, c=c: roller_gap(RADIUS)(x) + c, Constraints(load=load))
-            for c in (0.0, 1e6 * half_width**2 / RADIUS)
+            roller.pressed(grid, lambda x, c=c: roller.smooth()(x) + c, Constraints(load=load))
+            for c in (0.0, 1e6 * half_width**2 / roller.radius)
         )
         assert far.iterations["applications"] < 3 * near.iterations["applications"]
         assert far.pressure == pytest.approx(near.pressure, abs=1e-4 * near.pressure.max())
@@ -131,15 +128,15 @@ class TestLimits:
         grid = HatGrid.within(-2e-3, 2e-3, 2e-6)
         wavelength, height = 100e-6, 0.01e-6
         wave = 2.0 * np.pi / wavelength
-        plain = roller.pressed(grid, roller_gap(RADIUS))
-        rough = roller.pressed(grid, lambda x: roller_gap(RADIUS)(x) - height * np.cos(wave * x))
-        inside = np.abs(grid.x) < 0.5 * HERTZ.half_width
-        expected = 0.5 * MODULUS * height * wave * np.cos(wave * grid.x)
+        plain = roller.pressed(grid, roller.smooth())
+        rough = roller.pressed(grid, lambda x: roller.smooth()(x) - height * np.cos(wave * x))
+        inside = np.abs(grid.x) < 0.5 * roller.hertz.half_width
+        expected = 0.5 * roller.modulus * height * wave * np.cos(wave * grid.x)
         added = (rough.pressure - plain.pressure)[inside]
         assert added == pytest.approx(expected[inside], abs=0.02 * expected.max())
 
     def test_no_contact_below_the_first_touch(self, roller):
-        solution = roller.pressed(ROUGH_GRID, roller_gap(RADIUS), Constraints(approach=-1e-6))
+        solution = roller.pressed(ROUGH_GRID, roller.smooth(), Constraints(approach=-1e-6))
         assert not solution.pressure.any() and solution.load == 0.0
 
     @pytest.mark.parametrize(
