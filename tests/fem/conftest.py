@@ -12,9 +12,8 @@ from scenes import hat_nodes
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
-from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.terms import LinearContact, LinearResponse
 from fem.stress.stress import NodalStress, evaluate
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
@@ -83,55 +82,3 @@ class Pressed:
 @pytest.fixture(scope="session")
 def pressed() -> Callable[..., Pressed]:
     return cache(Pressed)
-
-
-class HatGrid:
-    """21 hats from -1.3 to 1.3, blocks that meet there, a smooth gap and a rough one [m^2]."""
-
-    count = 21
-    pitch = 2.6 / (count + 1)
-    x = pitch * (np.arange(count) - count // 2)
-    weights = np.full(count, pitch)
-    hats = hat_nodes(x[0], pitch, count)
-    smooth = 0.5 * pitch * x**2
-    rough = smooth + pitch * (0.05 * np.cos(17 * x) + 0.03 * np.cos(7 * x + 1) + 0.08)
-
-    def body(self, modulus=1.0, poisson=0.3, height=None, support=None) -> ElasticBody:
-        outer = graded(10.0, 0.1, 1.6)
-        mesh = structured_block(widened(np.linspace(-1.5, 1.5, 31), outer), outer, height)
-        return elastic_body(mesh, Material(modulus, poisson), support or Support())
-
-    def compliance(self, body: ElasticBody) -> FiniteElementCompliance:
-        return FiniteElementCompliance(body, self.hats)
-
-    def linear(self, body: ElasticBody, friction=0.0) -> tuple[LinearResponse, LinearContact]:
-        return LinearResponse(body), LinearContact(self.compliance(body), friction)
-
-
-@pytest.fixture(scope="session")
-def grid() -> HatGrid:
-    return HatGrid()
-
-
-@pytest.fixture(scope="session")
-def block(grid) -> ElasticBody:
-    return grid.body()
-
-
-@pytest.fixture(scope="session")
-def block_matrix(grid, block) -> np.ndarray:
-    return grid.compliance(block).matrix()
-
-
-@pytest.fixture(
-    params=[
-        ("smooth", 1.0, 0.6),
-        ("rough", 1.0, 0.6),
-        ("rough", 1.0, 1e-6),
-        ("smooth", 0.002, 3.0),
-    ],
-    ids=["smooth", "rough", "one hat", "everywhere"],
-)
-def gap_and_load(request, grid) -> tuple[np.ndarray, float]:
-    name, times, load = request.param
-    return times * getattr(grid, name), load
