@@ -15,7 +15,7 @@ from typing import Literal, TypeVar
 import numpy as np
 
 from comparisons.common.numbers import percent, percent_as_written
-from comparisons.figures.quantity import WHOLE
+from comparisons.figures.quantity import WHOLE, error_text
 from comparisons.figures.uncertainty import Uncertainty
 
 Item = TypeVar("Item")
@@ -152,7 +152,7 @@ class Figure:
         """A difference ± its numerical uncertainty, or another one over the scale, in per cent and
         in the digits that are certain."""
         unsure = self.numerical if unsure is None else unsure
-        size = percent(self.value, signed=True, uncertainty=unsure).removesuffix(" %")
+        size = error_text(self.value, unsure).removesuffix(" %")
         return f"{size} ± {percent(unsure)}"
 
     def words(self, unsure: float | None = None) -> str:

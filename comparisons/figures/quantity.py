@@ -46,6 +46,10 @@ class Quantity:
     # what tables show it over beside its unit: so many times `scale`, and the symbol of that
     over: tuple[float, str] | None = None
 
+    def size(self, value: float, hertz: "HertzContact") -> float:
+        """What a figure of that value is measured by [SI]."""
+        return abs(value) or self.scale(hertz)
+
 
 def _stress(label: str, short: str) -> Quantity:
     over = 1.0, "p₀"

@@ -97,7 +97,7 @@ def _of(case: Case, run: Solution) -> Iterator[Figure]:
     worst = max(figures.values(), key=lambda figure: figure.numerical)
     exact = problem.scene.load.kind != "approach"
     for name, value in values.items():
-        scale = abs(value) or QUANTITIES[name].scale(problem.hertz)
+        scale = QUANTITIES[name].size(value, problem.hertz)
         uncertainty = Uncertainty(figures.get(AS_UNCERTAIN.get(name), worst).uncertainty.parts)
         if name == "peak_position":
             scale = half_width

@@ -87,7 +87,7 @@ def judged(model: Solution, problem: Problem, against: Solution | None = None) -
         return values[0] if against is None else relative_differences(*values, problem)
 
     def how(name: str, value: float) -> Reading:
-        size = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
+        size = QUANTITIES[name].size(reference[name], problem.hertz)
         unsolved, resolution = iteration(*(level.solution for level in finest)), 0.0
         if against is not None:
             unsolved *= max(1.0, abs(1.0 + value))
@@ -180,11 +180,10 @@ def relative_differences(
     one: Mapping[str, float], reference: Mapping[str, float], problem: Problem
 ) -> dict[str, float]:
     """(one - reference) / reference of figures by name, or over Hertz's where that vanishes."""
-    sizes = {}
-    for name, value in one.items():
-        scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
-        sizes[name] = (value - reference[name]) / scale
-    return sizes
+    return {
+        name: (value - reference[name]) / QUANTITIES[name].size(reference[name], problem.hertz)
+        for name, value in one.items()
+    }
 
 
 def by_repetition(

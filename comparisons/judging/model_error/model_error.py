@@ -325,7 +325,7 @@ class Solutions:
 
     def _scale(self, figure: float, name: str) -> float:
         """Scale of differences [SI]: the figure, or the Hertz contact's where it vanishes."""
-        return abs(figure) or QUANTITIES[name].scale(self.case.problem.hertz)
+        return QUANTITIES[name].size(figure, self.case.problem.hertz)
 
     def _order(self, name: str) -> float:
         """Order of convergence under refinement."""
