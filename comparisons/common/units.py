@@ -109,7 +109,11 @@ def unit_in_si(unit: object, dimension: Dimension) -> float:
 
 def known_units(dimension: Dimension) -> str:
     """Units of every day, for messages."""
-    return ", ".join(name for name, (known, _) in COMMON_UNITS.items() if known is dimension)
+    return ", ".join(_everyday(dimension))
+
+
+def _everyday(dimension: Dimension) -> list[str]:
+    return [name for name, (known, _) in COMMON_UNITS.items() if known is dimension]
 
 
 def describe(entry: object) -> str:
@@ -159,7 +163,10 @@ def pint_factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
         unknown = f"is {describe(entry)}, and {_unknown(unit, dimension)}"
         raise UnknownUnitError(unknown) from error
     if root != _root(dimension):
-        raise UnitError(f"is {describe(entry)}, {_phrase(parsed)}")
+        phrases = (known.phrase for known in DIMENSIONS if root == _root(known))
+        its = parsed.dimensionality
+        other = f"of dimension {its}" if its else "without dimension"
+        raise UnitError(f"is {describe(entry)}, {next(phrases, other)}")
     try:
         none, one = (
             Decimal(registry.Quantity(Decimal(count), parsed).to(dimension.si_unit).magnitude)
@@ -174,19 +181,10 @@ def pint_factor(unit: str, dimension: Dimension, entry: str) -> Decimal:
 
 
 def _unknown(unit: str, dimension: Dimension) -> str:
-    same = [name for name, (known, _) in COMMON_UNITS.items() if known is dimension]
-    folded = {name.casefold(): name for name in reversed(same)}
+    folded = {name.casefold(): name for name in reversed(_everyday(dimension))}
     near = nearest(unit.casefold(), folded, 0.6)
     hint = f' (did you mean "{folded[near]}"?)' if near else ""
     return f"{describe(unit)} is no known unit{hint}"
-
-
-def _phrase(parsed: object) -> str:
-    root = _registry().get_root_units(parsed)[1]
-    for dimension in DIMENSIONS:
-        if root == _root(dimension):
-            return dimension.phrase
-    return f"of dimension {parsed.dimensionality}" if parsed.dimensionality else "without dimension"
 
 
 def _root(dimension: Dimension) -> object:

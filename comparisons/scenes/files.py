@@ -50,11 +50,9 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     name = os.fspath(name_or_path)
     if not name:
         raise SceneError("the scene has no name; allowed is a scene's file or name")
-    names = scene_names()
-    if name in names:
-        return SCENES / f"{name}.toml"
-    if name in benchmark_names():
-        return BENCHMARKS / f"{name}.toml"
+    names, benchmarks = scene_names(), benchmark_names()
+    if name in (*names, *benchmarks):
+        return (SCENES if name in names else BENCHMARKS) / f"{name}.toml"
     if os.path.lexists(name):
         return Path(name)
     path = Path(name)
@@ -66,7 +64,7 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
         raise SceneError(f"{name}: {there}; allowed is a scene's file or name")
     if path.suffix or os.path.dirname(name):
         raise SceneError(f"{name}: there is no such file; allowed is a scene's file or name")
-    near, every = nearest(name, [*names, *benchmark_names()]), ", ".join(names)
+    near, every = nearest(name, [*names, *benchmarks]), ", ".join(names)
     why = "is neither a file nor a scene; the nearest scene is"
     shown = name if len(name) < LONGEST_NAME else f"{name[:40]}…"
     raise SceneError(f"{shown}: {why} {near}, all are {every}")

@@ -116,7 +116,7 @@ class TestGroups:
             (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
             (
                 {**RIGID, "body": {**RIGID["body"], "thickness": 1e-3}, "load": {"approach": 1e-6}},
-                "a_over_thickness",
+                "poissons_ratio",
                 "load.approach:",
             ),
         ],
