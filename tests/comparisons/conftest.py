@@ -167,16 +167,15 @@ def wavy_outcome() -> Run:
     return finished_run(WAVY)
 
 
-@pytest.fixture(scope="session")
-def no_pictures() -> Callable[[Run], dict]:
+def no_pictures(run: Run) -> dict:
     """Stands in for `comparisons.output.page.page.draw`, which takes longer than all the rest of a
     run: the page has all its words, and nothing to look at."""
     blank = Picture("data:image/svg+xml;base64,", "", "")
-    return lambda run: {name: [blank] for name in PICTURES}
+    return {name: [blank] for name in PICTURES}
 
 
 @pytest.fixture(scope="session")
-def drawn_only(no_pictures: Callable[[Run], dict]) -> Callable[..., AbstractContextManager]:
+def drawn_only() -> Callable[..., AbstractContextManager]:
     """`with drawn_only("fields"):` of a report's pictures those named alone are drawn."""
 
     @contextmanager
@@ -191,7 +190,7 @@ def drawn_only(no_pictures: Callable[[Run], dict]) -> Callable[..., AbstractCont
 
 
 @pytest.fixture(scope="module")
-def undrawn(no_pictures: Callable[[Run], dict]) -> Iterator[None]:
+def undrawn() -> Iterator[None]:
     """The reports of a whole module without pictures."""
     with patch("comparisons.output.page.page.draw", no_pictures):
         yield

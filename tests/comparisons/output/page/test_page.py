@@ -151,10 +151,10 @@ def test_only_tables_and_pictures_scroll_sideways_and_are_named(wavy_page):
     assert "tabindex" not in wavy_page.source  # browsers themselves stop where something scrolls
 
 
-def test_a_title_cannot_add_markup(smooth_outcome: Run, page_of, monkeypatch, no_pictures):
-    monkeypatch.setattr("comparisons.output.page.page.draw", no_pictures)
+def test_a_title_cannot_add_markup(smooth_outcome: Run, page_of, drawn_only):
     title = '<script>alert("x")</script> & <b>more'
-    page = page_of(render(with_fields(smooth_outcome, {"title": title})))
+    with drawn_only():
+        page = page_of(render(with_fields(smooth_outcome, {"title": title})))
     assert title in page.headings
     assert page.scripts == [] and "<b>" not in page.source
     assert page.open_tags == []
