@@ -273,7 +273,7 @@ def test_load_beyond_the_limit_is_said(small_block, monkeypatch):
     monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_SINKING", 2)
     scene = MetalScene(small_block, 7.2, 6, reach=1.5)
     with pytest.raises(FemError, match=r"load of .* N/m was not reached"):
-        scene.press([1.0])
+        scene.press([1.0], travel=2.0)
 
 
 @pytest.fixture(scope="module")
