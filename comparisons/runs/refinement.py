@@ -143,7 +143,7 @@ class _Levels:
         # the finest level that is asked for lasts longest of all
         first = is_half_plane or number == len(self.problem.pitches)
         urgency = FIRST if first else NEEDED
-        if is_half_plane and number == 1 and self.plan.compares:  # for which the others wait
+        if is_half_plane and number == 1:  # for which the others wait
             urgency = AT_ONCE
         how = self.problem, number, self.patches, urgency
         return model.announce(self.tasks, *how, self.short if is_half_plane else 0.0)
