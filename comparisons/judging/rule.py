@@ -246,12 +246,12 @@ def relative_resolution(level: Level, reference: Level) -> float:
 
 def norms(level: Level, reference: Level, window: Window | None) -> dict[str, float]:
     """Relative L2 norms of the difference of the pressures of two levels on the same elements, and
-    of their tau1 on every so many-th x of the window, where both have that."""
+    of their tau1 on the window, as far as both have that."""
     sizes = {"pressure_l2": relative_l2(level.solution.pressure, reference.solution.pressure)}
     tau1 = [known.stress and known.stress.tau1 for known in (level, reference)]
     if all(field is not None for field in tau1):
-        taken = window.columns(window.norm_step)  # a level that may be the finest has all columns
-        tau1 = [field[:, taken] if field.shape[1] == len(window.x) else field for field in tau1]
+        fewer, taken = min(f.shape[1] for f in tau1), window.columns(window.norm_step)
+        tau1 = [field if field.shape[1] == fewer else field[:, taken] for field in tau1]
         thickness = np.gradient(window.z)[:, None]  # of the layer that each depth stands for
         sizes["tau1_l2"] = relative_l2(*tau1, thickness)
     return sizes

@@ -51,7 +51,7 @@ class Window:
 
     @property
     def norm_step(self) -> int:
-        """Of so many x the norm of a difference takes one, which moves it by a part in 500."""
+        """Of so many x one is enough for the norm of a difference on a level that is not shown."""
         return NORM_STEP if len(self.x) > LEAST_COLUMNS * NORM_STEP else 1
 
     def columns(self, step: int) -> slice:
